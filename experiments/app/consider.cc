@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
+#include "experiments/app/doubts.h"
 #include "experiments/campaign/answer/hold_out.h"
 
 namespace talus::app {
@@ -65,7 +66,11 @@ void AddConsiderCommand(CLI::App& app) {
       ->excludes(set)
       ->excludes(hold_out);
   command->add_flag("--json", arguments->json, "as JSON");
-  command->callback([arguments] { std::cout << Considered(*arguments) << std::flush; });
+  command->callback([arguments] {
+    const std::string text = Considered(*arguments);
+    WarnOfDoubts(arguments->folder);
+    std::cout << text << std::flush;
+  });
 }
 
 }  // namespace talus::app

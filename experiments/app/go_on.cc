@@ -76,10 +76,7 @@ bool IsWorthAdvice(const Ended& ended) {
   const campaign::Answer& answer = *ended.answer;
   return ended.spec.next.share > 0 && ended.spec.engine.kind == campaign::EngineKind::kTalus &&
          ended.spec.runner.kind == campaign::RunnerKind::kLocal && answer.verdict &&
-         answer.verdict->kind != campaign::VerdictKind::kPoint &&
-         !campaign::HasAlarm(answer,
-                             {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
-                              campaign::AlarmKind::kMisses, campaign::AlarmKind::kSearchMisses});
+         answer.verdict->kind != campaign::VerdictKind::kPoint && !campaign::IsDoubtful(answer);
 }
 
 // The few simulations that tell which further test would narrow the answer.

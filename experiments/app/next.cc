@@ -9,6 +9,7 @@
 #include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/app/commands.h"
+#include "experiments/app/doubts.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 
 namespace talus::app {
@@ -36,6 +37,7 @@ void Next(NextArguments& arguments) {
     arguments.request.goal = {.file = arguments.goal, .observable = arguments.observable};
   }
   arguments.request.say = [](const std::string& text) { std::cerr << text << std::endl; };
+  WarnOfDoubts(arguments.folder);
   const analysis::NextTable table = analysis::Advise(arguments.folder, arguments.request);
   std::cout << (arguments.json ? analysis::NextJson(table)
                                : campaign::WithFolder(analysis::NextText(table), arguments.folder))

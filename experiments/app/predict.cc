@@ -18,6 +18,7 @@
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
+#include "experiments/app/doubts.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -47,6 +48,7 @@ void CheckNames(const std::vector<std::string>& cases) {
 void RunPredict(const PredictArguments& arguments) {
   CheckNames(arguments.cases);
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
+  WarnOfDoubts(arguments.folder);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : arguments.cases) {
     analysis::PredictOptions options = arguments.options;

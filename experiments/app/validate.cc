@@ -11,6 +11,7 @@
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
+#include "experiments/analysis/design/design_cost.h"
 #include "experiments/analysis/design/design_spec.h"
 #include "experiments/analysis/next/campaign_goal.h"
 #include "experiments/app/commands.h"
@@ -153,7 +154,7 @@ void ValidateProblem(const base::JsonFile& file, bool) {
 void ValidateDesign(const base::JsonFile& file, bool) {
   const analysis::DesignSpec design = analysis::LoadDesignSpec(file.path);
   std::cout << file.path.string() << ": is a plan for `talus design` in order\n"
-            << "  candidates        " << design.candidates.size() << '\n';
+            << analysis::DesignCostText(design);
 }
 
 void ValidateCommandCase(const base::JsonFile& file, bool) {

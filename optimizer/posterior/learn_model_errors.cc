@@ -59,7 +59,8 @@ void LearnModelErrors(const Domain& domain, double scale, std::uint64_t seed,
   const PosteriorSample sample = posterior.Sample(domain, kSampled, 1, seed);
   const std::vector<OutputMoments> outputs = posterior.Outputs(sample.points);
   const Eigen::ArrayXd prior =
-      sample.volume.array() * domain.prior.LogDensity(sample.points).array().exp();
+      sample.volume.array() *
+      (domain.prior.LogDensity(sample.points) + posterior.LogSuccess(sample.points)).array().exp();
   for (ExperimentModel& model : models) model.SetModelError({.value = scale});
   const Nodes log_prior = LogPrior();
   const NodeMoments before = MomentsOf(log_prior);

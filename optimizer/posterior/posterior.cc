@@ -83,7 +83,20 @@ std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) con
 }
 
 Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
-  return LogDensity(Outputs(points), softness) + prior_.LogDensity(points);
+  return LogDensity(Outputs(points), softness) + prior_.LogDensity(points) + LogSuccess(points);
+}
+
+void Posterior::CountSuccesses(std::size_t experiment, SuccessModel successes) {
+  successes_.push_back({.weight = models_[experiment].weight(), .model = std::move(successes)});
+}
+
+Eigen::VectorXd Posterior::LogSuccess(const Eigen::MatrixXd& points) const {
+  constexpr double kLeast = 1e-3;  // neighbours may be wrong
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(points.rows());
+  for (const Successes& one : successes_) {
+    sum.array() += one.weight * one.model.Probability(points).array().max(kLeast).log();
+  }
+  return sum;
 }
 
 Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,

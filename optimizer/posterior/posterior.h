@@ -1,12 +1,17 @@
 // The posterior of the parameters: how likely the measured outputs of all experiments are at a set.
 //
-//   ln p(x | data) = ln p(x) - Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ R⁻¹ r  joint_misfit.h
+//   ln p(x | data) = ln p(x) - Σ ln sₖ(x) - ½ ρ(M(x)/T) + Σ ln πⱼ(x) + const,
+//   M = rᵀ R⁻¹ r  joint_misfit.h
 //
 // r residuals of the K outputs in standard deviations s (experiment_model.h: the experiment's own
 // error, model error and the surrogate's, which is inflated in r, and counts three quarters in -Σ
 // ln s). R and T come from leave-one-out residuals of all experiments together, so that two tests
 // are not added as if independent. The prior p(x) (prior.h) counts as it is given: T is the
 // surrogates'.
+//
+// πⱼ(x) is the probability that a simulation at x gives a measured number, or image, at all: it may
+// crash, and a drum that carries its powder round has no angle. It is 1 where every simulation
+// does.
 //
 // An experiment of weight w counts as its likelihood to the power w: √w r and w ln s.
 #pragma once
@@ -17,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/outputs/success_model.h"
 #include "optimizer/posterior/experiment_model.h"
 #include "optimizer/posterior/joint_misfit.h"
 #include "optimizer/posterior/posterior_sample.h"
@@ -37,11 +43,16 @@ class Posterior {
   // Up to a constant, one point a row. `softness` >= 1 divides the misfits once more, for
   // exploration.
   Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points, double softness = 1) const;
-  // The same from the outputs there, one element an experiment, without the prior.
+  // The same from the outputs there, one element an experiment, without prior and πⱼ.
   Eigen::VectorXd LogDensity(const std::vector<OutputMoments>& outputs, double softness = 1) const;
   std::vector<OutputMoments> Outputs(const Eigen::MatrixXd& points) const;
   // From now on in the density; a shift for each experiment.
   void ShiftOutputs(std::vector<ShiftBySet> shifts) { shifts_ = std::move(shifts); }
+
+  // Where simulations of an experiment give what was measured; only of what some of them lack.
+  void CountSuccesses(std::size_t experiment, SuccessModel successes);
+  // Σ ln πⱼ, one point a row.
+  Eigen::VectorXd LogSuccess(const Eigen::MatrixXd& points) const;
 
   // By importance sampling from an even start, and from the prior where there is one, refined where
   // the weights are [cappe2004]: the posterior may be curved and have several branches.
@@ -66,6 +77,11 @@ class Posterior {
   JointMisfit misfit_;
   Prior prior_;
   std::vector<ShiftBySet> shifts_{};  // empty: none
+  struct Successes {
+    double weight = 1;  // of the experiment
+    SuccessModel model;
+  };
+  std::vector<Successes> successes_{};
 };
 
 }  // namespace talus::optimizer

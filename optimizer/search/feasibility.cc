@@ -28,32 +28,22 @@ Feasibility::Feasibility(const History& history) {
   points << history.failed, history.points;
   Eigen::VectorXd worked(points.rows());
   worked << Eigen::VectorXd::Zero(num_failed), Eigen::VectorXd::Ones(num_good);
-  // Not fitted: a handful of failures says nothing of hyper-parameters. A length of a quarter of
-  // the range gives each failure a surrounding; noise 0.3 lets neighbours outvote it. Centred on 1:
-  // where nothing is known, evaluations work.
-  const surrogate::GaussianProcessState state{
-      .hyper = {.length = Eigen::VectorXd::Constant(points.cols(), 0.25),
-                .noise = Eigen::VectorXd::Constant(1, 0.3),
-                .constant = 0},
-      .centre = 1,
-      .scale = 0.5};
-  process_ =
-      surrogate::GaussianProcess::Fit({.points = points, .values = worked}, {.frozen = state});
+  worked_ = SuccessModel(points, worked);
 }
 
 double Feasibility::Probability(const Eigen::VectorXd& x) const {
-  return process_ ? std::clamp(process_->Predict(x).mean, 0.0, 1.0) : 1;
+  return worked_.always() ? 1 : std::clamp(worked_.process().Predict(x).mean, 0.0, 1.0);
 }
 
 Eigen::VectorXd Feasibility::Penalty(const Eigen::MatrixXd& points) const {
-  if (!process_) return Eigen::VectorXd::Zero(points.rows());
-  return process_->PredictAll(points).mean.unaryExpr(&PenaltyOf);
+  if (always()) return Eigen::VectorXd::Zero(points.rows());
+  return worked_.process().PredictAll(points).mean.unaryExpr(&PenaltyOf);
 }
 
 double Feasibility::Penalty(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const {
   if (slope != nullptr) slope->setZero(x.size());
-  if (!process_) return 0;
-  const surrogate::PredictionGradient at = process_->PredictWithGradient(x);
+  if (always()) return 0;
+  const surrogate::PredictionGradient at = worked_.process().PredictWithGradient(x);
   if (slope != nullptr) *slope = PenaltySlope(at.value.mean) * at.mean;
   return PenaltyOf(at.value.mean);
 }

@@ -1,12 +1,10 @@
-// Where evaluations fail: a Gaussian process of "it worked" (1 or 0), so that a region of failures
-// is avoided with a margin, and one unlucky crash does not close a region of successes.
+// Where evaluations fail, and what a search loses by going there.
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
+#include "optimizer/outputs/success_model.h"
 #include "optimizer/search/history.h"
-#include "surrogate/process/gaussian_process.h"
 
 namespace talus::optimizer {
 
@@ -15,7 +13,7 @@ class Feasibility {
   Feasibility() = default;  // everything works
   explicit Feasibility(const History& history);
 
-  bool always() const { return !process_; }
+  bool always() const { return worked_.always(); }
 
   // Probability that an evaluation works, in [0, 1].
   double Probability(const Eigen::VectorXd& x) const;
@@ -26,7 +24,7 @@ class Feasibility {
   double Penalty(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const;
 
  private:
-  std::optional<surrogate::GaussianProcess> process_;
+  SuccessModel worked_;
 };
 
 }  // namespace talus::optimizer

@@ -129,6 +129,32 @@ ExperimentModel::Setup PosteriorStrategy::SetupOf(std::size_t experiment) const 
           .model_error = options_.model_error};
 }
 
+// Where the simulations of an experiment give what it has measured: they may crash, and a number
+// may not exist.
+void PosteriorStrategy::CountSuccesses(std::size_t experiment, Posterior& posterior) const {
+  std::vector<const Observation*> told;
+  for (const Observation& one : observations_) {
+    if (one.experiment == static_cast<int>(experiment)) told.push_back(&one);
+  }
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(told.size()), domain_.num_parameters);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = told[i]->point;
+  }
+  const auto count = [&](const auto& gives) {
+    Eigen::VectorXd worked(points.rows());
+    std::ranges::transform(told, worked.begin(), [&](const Observation* one) {
+      return !one->failed && gives(*one) ? 1.0 : 0.0;
+    });
+    SuccessModel model(points, worked);
+    if (!model.always()) posterior.CountSuccesses(experiment, std::move(model));
+  };
+  const std::size_t num_scalars = targets_[experiment].scalars.size();
+  if (num_scalars == 0) return count([](const Observation&) { return true; });
+  for (std::size_t s = 0; s < num_scalars; ++s) {
+    count([&](const Observation& one) { return std::isfinite(one.scalars[s]); });
+  }
+}
+
 Posterior PosteriorStrategy::MakePosterior() {
   std::vector<ExperimentModel> models;
   std::vector<OutputData> data;
@@ -148,6 +174,7 @@ Posterior PosteriorStrategy::MakePosterior() {
     models.emplace_back(setup, data.back(), &*told.state);
   }
   Posterior posterior(std::move(models), data, domain_.prior);
+  for (std::size_t e = 0; e < told_.size(); ++e) CountSuccesses(e, posterior);
   if (options_.learn_model_error) {
     LearnModelErrors(domain_, options_.model_error, options_.seed, posterior);
   }

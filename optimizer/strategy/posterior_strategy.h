@@ -123,11 +123,13 @@ class PosteriorStrategy : public Strategy {
   std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
+  void CountSuccesses(std::size_t experiment, Posterior& posterior) const;
   Posterior MakePosterior();
   // `divisor`: of the usual size.
   PosteriorSample SampleOf(const Posterior& posterior, int divisor = 1) const;
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
+  Answer RecommendUnmodelled() const;
   void Summarise(Answer& answer);
   std::vector<NuisanceWeight> NuisanceWeights(const Eigen::MatrixXd& draws) const;
   void AddPrior(PosteriorSummary& summary) const;

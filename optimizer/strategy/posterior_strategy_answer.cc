@@ -12,6 +12,7 @@
 #include "optimizer/search/describe_minimum.h"
 #include "optimizer/search/history.h"
 #include "optimizer/space/point_rows.h"
+#include "optimizer/strategy/observed_misses.h"
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
@@ -90,8 +91,21 @@ void PosteriorStrategy::Summarise(Answer& answer) {
   answer.posterior = std::move(summary);
 }
 
+Answer PosteriorStrategy::RecommendUnmodelled() const {
+  const std::vector<Observation> misses = WithMisses(observations_, targets_);
+  Answer answer = BestObserved(misses, domain_, "the search over scale factors");
+  answer.predicted_value = 0;
+  for (const Observation& told : observations_) {
+    const bool has_image = targets_[static_cast<std::size_t>(told.experiment)].image.width > 0;
+    if (told.failed || !has_image || !SamePoint(told.point, answer.point)) continue;
+    answer.predicted_value = told.value;
+    break;
+  }
+  return answer;
+}
+
 Answer PosteriorStrategy::Recommend() {
-  if (!CanModel()) return BestObserved(observations_, domain_, "the search over scale factors");
+  if (!CanModel()) return RecommendUnmodelled();
   constexpr int kMostTied = 200;
   Answer answer;
   Summarise(answer);

@@ -408,7 +408,9 @@ class Progress(unittest.TestCase):
                                     if k in ("powder", "device", "parameters")}))
         done = talus("validate", str(plan))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertRegex(done.stdout, r"is a plan for `talus design` in order\n  candidates        \d+\n")
+        self.assertRegex(done.stdout, r"is a plan for `talus design` in order\n  candidates        \d+\n"
+                                      r"    heap: \d+ grains of .* mm, .* of a core\n(    .*\n)*"
+                                      r"  time              32 simulations of each, about .* of core time in all\n")
 
     def test_a_table_of_candidates_may_come_from_a_spreadsheet(self):
         (self.folder / "runs.csv").write_bytes(b"\xef\xbb\xbfa,b\n1,2\n3,4\n")  # with a byte order mark

@@ -110,6 +110,12 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                     base::PlainNumber(unit.per_unit * number.predicted_sd, 2) + ending;
   }
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  if (fit.undefined) {
+    row.is_confirmed = true;
+    row.simulated = "none";
+    row.judgement = "no simulation with these values has one: " + *fit.undefined;
+    return row;
+  }
   row.is_confirmed = confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
   if (row.is_confirmed) {
     row.simulated = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +

@@ -105,7 +105,7 @@ std::string DesignText(const DesignTable& table, const campaign::JointView& view
     best.insert(first.begin(), first.end());
   }
   for (const NextCandidate& candidate : table.tests.candidates) {
-    if (!candidate.learning) text += "   -        " + candidate.name + " " + candidate.what + "\n";
+    if (!candidate.learning) text += "   -        " + candidate.name + ": " + candidate.what + "\n";
   }
   if (!best.empty()) text += "what the best ones need\n";
   for (const std::size_t t : best) text += TestText(view, tests[t], table.tests.candidates[t]);

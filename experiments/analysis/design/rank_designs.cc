@@ -15,7 +15,6 @@ constexpr std::size_t kMostTests = 3;
 
 // So many that a few hundred remain in what two tests leave.
 constexpr int kPriorDraws = 8000;
-constexpr int kSimulations = 32;  // of each test: the ranges are wider than a posterior
 
 // A campaign's posterior has the surrogate's own error, too, in its variance and in its mean: as
 // much as if this were its share of an output's variance (virtual powders; bench/RECORD.md).
@@ -35,7 +34,7 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
   auto [candidate, can_simulate] = ListTest(ground.view, test);
   if (!can_simulate) return candidate;
   const TestDesign design =
-      SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kSimulations}, parts);
+      SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kDesignSimulations}, parts);
   candidate.num_made = design.num_simulations;
   candidate.core_time_made = design.core_time;
   JudgeTest(ground, {.test = test, .design = design, .unknown = {}}, candidate);

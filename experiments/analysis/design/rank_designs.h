@@ -11,6 +11,9 @@
 
 namespace talus::analysis {
 
+// Of each test: the ranges are wider than a posterior.
+inline constexpr int kDesignSimulations = 32;
+
 // Tests made together.
 struct DesignChoice {
   std::vector<std::size_t> tests;  // of DesignTable::tests.candidates

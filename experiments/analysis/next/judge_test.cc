@@ -170,7 +170,7 @@ void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandida
   }
   const Hypothetical made = Imagine(ground, test, design);
   if (made.target.scalars.empty() && !design.frame) {
-    candidate.what += "; its simulations show no number that differs";
+    candidate.what = "tells nothing: its simulations show no number that differs";
     return;
   }
   const auto strategy = ModelOf(ground.view, {design.scale_factor}, made.target);

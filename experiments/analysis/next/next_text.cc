@@ -114,7 +114,7 @@ std::string ShareText(double share) {
 }
 
 std::string CandidateText(const NextTable& table, const NextCandidate& c) {
-  if (IsImpossible(c)) return "     -   " + c.name + " " + c.what + "\n";
+  if (IsImpossible(c)) return "     -   " + c.name + ": " + c.what + "\n";
   const std::string step = "  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
   if (!c.learning) return "     ? " + step;
   return ShareText(c.remaining) + step + "         expected to leave " +

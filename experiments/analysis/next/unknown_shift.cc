@@ -48,7 +48,7 @@ Eigen::VectorXd PooledVariance(const std::vector<Eigen::MatrixXd>& sets) {
 }
 
 Eigen::VectorXd ShiftBeyondChance(const MovedRows& rows) {
-  auto [shift, by_chance] = ShiftOf(rows.moved, rows.base, rows.noise);
+  auto [shift, by_chance, is_known] = ShiftOf(rows.moved, rows.base, rows.noise);
   JudgeTogether(by_chance.head(rows.num_modes), shift.head(rows.num_modes));
   for (Eigen::Index k = rows.num_modes; k < shift.size(); ++k) {
     JudgeTogether(by_chance.segment(k, 1), shift.segment(k, 1));

@@ -162,6 +162,14 @@ std::string NumberText(const PredictedNumber& number) {
          " … " + shown.Text(number.high);
 }
 
+std::string SilentText(const PredictedNumber& number) {
+  const auto silent =
+      std::ranges::count_if(number.by_run, [](double value) { return !std::isfinite(value); });
+  if (silent == 0) return {};
+  return "without a value in " + base::Counted(silent, "run") +
+         (number.undefined.empty() ? "" : ": " + number.undefined);
+}
+
 std::string PredictionText(const Prediction& prediction,
                            const std::vector<journal::ParameterRecord>& parameters) {
   std::string text = prediction.name + " (" + prediction.test + "), by " + WhatText(prediction);
@@ -185,12 +193,7 @@ std::string PredictionText(const Prediction& prediction,
       continue;
     }
     text += NumberText(number) + "; " + SharesText(number, prediction.draws.size() > 1);
-    const auto silent =
-        std::ranges::count_if(number.by_run, [](double value) { return !std::isfinite(value); });
-    if (silent > 0) {
-      text += "; without a value in " + base::Counted(silent, "run") +
-              (number.undefined.empty() ? "" : ": " + number.undefined);
-    }
+    if (const std::string silent = SilentText(number); !silent.empty()) text += "; " + silent;
     text += "\n" + LeftOutText(prediction, number);
     if (number.measured) text += MeasuredText(prediction, number, parameters);
   }

@@ -18,6 +18,9 @@ std::string NumberTitle(const PredictedNumber& number);
 // One line for a number: "43.8 deg, 90 % of runs in 42.9 … 44.6".
 std::string NumberText(const PredictedNumber& number);
 
+// "without a value in 2 runs: the drum carries the powder round"; empty where all have one.
+std::string SilentText(const PredictedNumber& number);
+
 // draws.csv: a draw a line, with its weight, its set and the mean of every number.
 std::string DrawsCsv(const Prediction& prediction,
                      const std::vector<journal::ParameterRecord>& parameters);

@@ -36,6 +36,8 @@ double FixedMove::MostHalfRanges() const {
 
 bool FixedMove::FitsNoSet() const { return implausibility > campaign::kImplausible; }
 
+bool SensitivityTable::FitsNoSet() const { return implausibility > campaign::kImplausible; }
+
 namespace {
 
 using campaign::JointView;
@@ -106,6 +108,9 @@ class Study {
     SensitivityTable table{.scale_factor = setting_.scale_factor};
     for (const journal::TrialRecord& trial : view_.trials) {
       if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
+    }
+    for (const optimizer::ExperimentStanding& standing : answer_.posterior->experiments) {
+      table.implausibility = std::max(table.implausibility, standing.implausibility);
     }
     const std::vector<double> values = campaign::FreeValues(view_.space, answer_.point);
     const std::vector<int> free = view_.space.Free();
@@ -209,10 +214,11 @@ class Study {
     }
     for (std::size_t s = 0; s < scalars.size(); ++s) {
       const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
+      const double known = shift.is_known[k] ? 1 : campaign::kNotKnown;
       move.outputs.push_back({.experiment = NameOf(view_, e),
                               .output = scalars[s].name,
-                              .shift = shift.mean[k] / std::sqrt(single[k]),
-                              .noise = std::sqrt(shift.variance[k] / single[k])});
+                              .shift = known * shift.mean[k] / std::sqrt(single[k]),
+                              .noise = known * std::sqrt(shift.variance[k] / single[k])});
     }
   }
 

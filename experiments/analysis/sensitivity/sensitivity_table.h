@@ -18,6 +18,7 @@ struct OutputShift {
   double shift = 0;      // [sd of one simulation at the target scale factor]; of an image the root
                          // mean square over its modes, of a number with its sign
   double noise = 0;      // sd that chance gives the shift; of an image its root mean square
+  // Both NaN where no simulation, with the move or without, has the number.
 
   static constexpr base::FieldKey kKeys[] = {{"shift", "shift_in_noise_sd"},
                                              {"noise", "by_chance"}};
@@ -87,11 +88,15 @@ struct SensitivityTable {
   int num_simulations = 0;
   double core_time = 0;  // of these [s]; 0 where the engine does not tell
   std::vector<SensitivityParameter> parameters{};
+  double implausibility = 0;  // of the answer as it stands, the largest of the experiments' [sd]
   std::vector<FixedMove> moves{};  // the largest shift of the answer first
 
   static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"},
-                                             {"core_time", "core_time_s"}};
-  TALUS_FIELDS(scale_factor, last_trial, num_simulations, core_time, parameters, moves);
+                                             {"core_time", "core_time_s"},
+                                             {"implausibility", "implausibility_sd"}};
+  TALUS_FIELDS(scale_factor, last_trial, num_simulations, core_time, parameters, implausibility,
+               moves);
+  bool FitsNoSet() const;  // as it stands
 };
 
 }  // namespace talus::analysis

@@ -1,6 +1,7 @@
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -34,8 +35,10 @@ std::string MoveText(const FixedMove& move) {
 std::string OutputsText(const FixedMove& move, bool many_experiments) {
   if (move.outputs.empty()) return "no output, as it acts on no experiment";
   return base::Joined(move.outputs, ", ", [&](const OutputShift& output) {
-    return (many_experiments ? output.experiment + " " : "") + output.output + " " +
-           PlainNumber(output.shift, 2) + " (chance " + PlainNumber(output.noise, 2) + ")";
+    const std::string name =
+        (many_experiments ? output.experiment + " " : "") + output.output + " ";
+    if (!std::isfinite(output.shift)) return name + "not known, as simulations have no value";
+    return name + PlainNumber(output.shift, 2) + " (chance " + PlainNumber(output.noise, 2) + ")";
   });
 }
 
@@ -63,6 +66,10 @@ std::string HeadText(const SensitivityTable& table) {
     return p.name + " " + base::WithUnit(p.value, p.unit, 3) + RangeText(p.low, p.high);
   };
   std::string text = "  as it stands      " + base::Joined(table.parameters, ", ", one);
+  if (table.FitsNoSet()) {
+    text += "\n                    no set fits: the answer is " +
+            PlainNumber(table.implausibility, 2) + " standard deviations off";
+  }
   text += "\n  simulated         " + base::Counted(table.num_simulations, "simulation") +
           " at scale factor " + ShortNumber(table.scale_factor);
   if (table.core_time > 0) {
@@ -111,7 +118,9 @@ std::string SensitivityText(const SensitivityTable& table) {
     }
     if (move.FitsNoSet()) {
       text += "\n            no set fits with it: the answer is " +
-              PlainNumber(move.implausibility, 2) + " standard deviations off";
+              PlainNumber(move.implausibility, 2) + " standard deviations off" +
+              (table.FitsNoSet() ? ", for " + PlainNumber(table.implausibility, 2) + " as it stands"
+                                 : "");
     }
     text += "\n";
   }

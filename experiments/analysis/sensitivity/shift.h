@@ -16,11 +16,13 @@ ColumnMean MeanOfColumn(const Eigen::MatrixXd& outputs, Eigen::Index k);
 
 struct Shift {
   Eigen::VectorXd mean;      // a number an output
-  Eigen::VectorXd variance;  // that chance gives it
+  Eigen::VectorXd variance;  // that chance gives it; 0 of what is not known
+  // Whether some simulation with the move and one without have the output.
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_known{};
 };
 
 // Outputs of simulations with and without the move, one a row; `noise`: the variance of each output
-// from seed to seed. One that is undefined in all of either says nothing: its shift and variance
+// from seed to seed. One that is undefined in all of either is not known: its shift and variance
 // are 0.
 Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
               const Eigen::VectorXd& noise);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/rigs/case/case_warnings.h"
@@ -53,7 +54,10 @@ std::string PriorOf(const Alarm& a) {
 // "… misses the shape of "drum" by 5.1 times the noise floor, 11 % of the powder's area"
 std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
-  if (a.number) {
+  if (a.undefined) {
+    text += rigs::SpokenName(a.number.value_or("")) + " of " + Quoted(a.experiment) +
+            ": simulated with it there is none (" + *a.undefined + ")";
+  } else if (a.number) {
     text += rigs::SpokenName(*a.number) + " of " + Quoted(a.experiment) + " by " +
             base::PlainNumber(a.value.value_or(0), 2) + " standard errors";
   } else {
@@ -89,7 +93,7 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kImplausible:
       return "no set fits " + experiment + ": the recommended one is " + value +
              " standard deviations off; " + PriorOf(a) +
-             "the contact law, the plate material or the set-up is wrong";
+             "the searched ranges, the contact law, the walls' material or the set-up is wrong";
     case AlarmKind::kAllAlike:
       return "all " + base::ShortNumber(a.value.value_or(0)) + " simulations of " + experiment +
              " gave exactly the same, whatever was searched and whatever the seed: does the engine "
@@ -124,6 +128,10 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kMisses:
     case AlarmKind::kSearchMisses:
       return MissesText(a);
+    case AlarmKind::kConfirmationFailed:
+      return "all " + base::Counted(std::lround(a.value.value_or(0)), "simulation") +
+             " of the recommended set with fresh seeds failed (the last: " + a.reason.value_or("") +
+             "): nothing stands on this answer before the cause is known";
     case AlarmKind::kWorseThanObserved:
       return "trial " + std::to_string(a.trial.value_or(0)) +
              " came out better than the recommended set, by " + value +

@@ -19,8 +19,11 @@ enum class AlarmKind {
   kAllAlike,     // all `value` simulations of `experiment` gave the same
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
                  // `share` of its powder's area, or its `number` by `value` standard errors;
-                 // `scale_factor`, where grains are coarser than true ones; `parameter` as above
+  // `undefined` where it has none; `scale_factor`, where grains are coarser than true
+  // ones; `parameter` as above
   kSearchMisses,         // the same, but another set may fit, for `reason`: the search is to blame
+  kConfirmationFailed,   // all `value` simulations of the recommended set with fresh seeds failed,
+                         // the last for `reason`
   kContradictsPrior,     // the posterior of `parameter` is `value` sd off its prior, `reason`
   kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective
   kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
@@ -72,14 +75,15 @@ struct Alarm {
   std::optional<std::string> unit{};    // of the objective, for people
   std::optional<double> value{};
   std::optional<double> share{};
-  std::optional<double> shown{};        // objective of the recommended set's mean heap
-  std::optional<double> noise_floor{};  // of the experiment [mm²]
-  std::optional<double> widened{};      // factor on the ranges
+  std::optional<double> shown{};           // objective of the recommended set's mean heap
+  std::optional<double> noise_floor{};     // of the experiment [mm²]
+  std::optional<double> widened{};         // factor on the ranges
+  std::optional<std::string> undefined{};  // why a simulation has no such number
   std::optional<std::string> reason{};  // in the words of who found it: the rule, the photographs
 
   static constexpr base::FieldKey kKeys[] = {{"noise_floor", "noise_floor_mm2"}};
   TALUS_FIELD_LIST(kind, parameter, other_parameter, side, experiment, scale_factor, trial, photo,
-                   number, unit, value, share, shown, noise_floor, widened, reason);
+                   number, unit, value, share, shown, noise_floor, widened, undefined, reason);
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

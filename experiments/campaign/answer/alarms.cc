@@ -123,6 +123,12 @@ const ResultCandidate* NearerSet(const Answer& answer) {
   return nearest;
 }
 
+// Without a model there are none.
+bool HasRanges(const Answer& answer) {
+  return std::ranges::any_of(
+      answer.parameters, [](const ResultParameter& p) { return std::isfinite(p.credible_low); });
+}
+
 // The model held the recommended set for one that fits this image.
 bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
   const ResultStanding* standing = StandingOf(answer, fit.experiment);
@@ -141,6 +147,7 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
     return BracketedSet(names, nearer->values) + ", simulated again, too, " +
            (Misses(answer, *nearer) ? "misses less" : "fits");
   }
+  if (!HasRanges(answer)) return "there are too few simulations for a model";
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
   if (answer.posterior && IsProvisional(answer.posterior->surrogate_narrowing)) {
     return "its region is still more the surrogate's than the measurements'";
@@ -152,14 +159,40 @@ void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
   alarms.insert(alarms.end(), more.begin(), more.end());
 }
 
+bool IsOf(const journal::TrialRecord& trial, const std::vector<ResultParameter>& set) {
+  constexpr double kSame = 1e-9;
+  return std::ranges::equal(trial.native, set, [](double value, const ResultParameter& p) {
+    return std::abs(value - p.value) <= kSame * std::abs(p.value);
+  });
+}
+
+// Where no simulation of the recommended set with fresh seeds succeeded.
+std::vector<Alarm> FailureAlarms(const std::vector<journal::TrialRecord>& trials,
+                                 const Answer& answer) {
+  int num_failed = 0;
+  std::string last;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.kind != journal::TrialKind::kConfirm || !IsOf(trial, answer.parameters)) continue;
+    if (trial.status == journal::TrialStatus::kOk) return {};
+    if (trial.status != journal::TrialStatus::kFailed) continue;
+    ++num_failed;
+    last = trial.reason;
+  }
+  if (num_failed == 0) return {};
+  return {{.kind = AlarmKind::kConfirmationFailed,
+           .value = static_cast<double>(num_failed),
+           .reason = last}};
+}
+
 }  // namespace
 
 std::vector<Alarm> MissAlarms(const Answer& answer) {
   std::vector<Alarm> alarms;
   for (const MeasurementFit& fit : FitsOf(answer)) {
     const ResultStanding* standing = StandingOf(answer, fit.experiment);
-    if (fit.meets != Meets::kNo || standing == nullptr) continue;  // the latter: it is held out
-    if (standing->implausibility > kImplausible) continue;
+    if (fit.meets != Meets::kNo) continue;
+    if (answer.posterior && standing == nullptr) continue;  // it is held out
+    if (standing != nullptr && standing->implausibility > kImplausible) continue;
     const std::optional<std::string> fault = SearchFault(answer, fit);
     Alarm alarm{.kind = fault ? AlarmKind::kSearchMisses : AlarmKind::kMisses,
                 .experiment = fit.experiment,
@@ -168,6 +201,7 @@ std::vector<Alarm> MissAlarms(const Answer& answer) {
     if (!fit.number.empty()) alarm.number = fit.number;
     if (std::isfinite(fit.off)) alarm.value = fit.off;
     if (std::isfinite(fit.share)) alarm.share = fit.share;
+    alarm.undefined = fit.undefined;
     if (answer.conditions.scale_factor > 1) alarm.scale_factor = answer.conditions.scale_factor;
     alarms.push_back(alarm);
   }
@@ -320,6 +354,7 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   std::vector<Alarm>& alarms = answer.warnings;
   Append(AlikeAlarms(basis.trials, answer.experiments), alarms);
   Append(MissAlarms(answer), alarms);
+  Append(FailureAlarms(basis.trials, answer), alarms);
   Append(PredictionAlarms(answer), alarms);
   Append(SearchAlarms(answer, basis.trials, basis.references), alarms);
   Append(PosteriorAlarms(answer), alarms);

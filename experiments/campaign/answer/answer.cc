@@ -46,6 +46,16 @@ bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds) {
   });
 }
 
+bool IsDoubt(AlarmKind kind) {
+  return kind == AlarmKind::kImplausible || kind == AlarmKind::kDisagree ||
+         kind == AlarmKind::kMisses || kind == AlarmKind::kSearchMisses ||
+         kind == AlarmKind::kConfirmationFailed;
+}
+
+bool IsDoubtful(const Answer& answer) {
+  return std::ranges::any_of(answer.warnings, [](const Alarm& a) { return IsDoubt(a.kind); });
+}
+
 bool AsksForSimulations(const Answer& answer) {
   return HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
                            AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,

@@ -170,6 +170,11 @@ double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed);
 
 bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds);
 
+// No set fits, the tests disagree, or the recommended set misses or cannot be simulated: another
+// set-up or more simulations come before anything is built on the answer.
+bool IsDoubt(AlarmKind kind);
+bool IsDoubtful(const Answer& answer);
+
 // Whether an alarm wants more simulations before anything else is done.
 bool AsksForSimulations(const Answer& answer);
 

@@ -77,7 +77,11 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
     const ResultNumber& n = experiment.numbers[i];
     text += (text.empty() ? "" : "; ") + rigs::SpokenName(n.name);
     if (confirmed != nullptr) {
-      text += " " + rigs::ShownNumber(n.name, confirmed->scalars.at(i).mean) + ",";
+      const ResultScalar& simulated = confirmed->scalars.at(i);
+      text += " " +
+              (simulated.undefined ? "has no value (" + *simulated.undefined + ")"
+                                   : rigs::ShownNumber(n.name, simulated.mean)) +
+              ",";
     }
     text += " measured " + rigs::ShownNumber(n.name, n.value) + " ± " +
             rigs::ShownNumber(n.name, n.standard_error);

@@ -31,6 +31,18 @@ base::Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials
   return base::SampleOf(values);
 }
 
+// Why none of the trials that ended has a value; nothing where one has, and where none ended.
+std::optional<std::string> WhyUndefined(const std::vector<const journal::TrialRecord*>& trials,
+                                        std::string_view name) {
+  std::optional<std::string> why;
+  for (const journal::TrialRecord* trial : trials) {
+    if (trial->Metric(name)) return std::nullopt;
+    const auto metric = std::ranges::find(trial->metrics, name, &journal::MetricRecord::name);
+    if (!why && metric != trial->metrics.end()) why = metric->undefined;
+  }
+  return why;
+}
+
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
                             const CampaignEvidence& evidence, std::size_t experiment) {
   const Reference& reference = evidence.references[experiment];
@@ -44,9 +56,12 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     if (auto profile = evidence.profile(trial->id)) profiles.push_back(std::move(*profile));
   }
   const base::Sample sample = base::SampleOf(objective);
-  confirmed.num_trials = static_cast<int>(std::count_if(
-      trials.begin(), trials.end(),
-      [&](const journal::TrialRecord* trial) { return reference.IsMeasured(*trial); }));
+  // One without the number that was measured tells, too.
+  confirmed.num_trials = static_cast<int>(
+      std::count_if(trials.begin(), trials.end(), [&](const journal::TrialRecord* trial) {
+        return reference.has_image() ? reference.IsMeasured(*trial)
+                                     : trial->status == journal::TrialStatus::kOk;
+      }));
   confirmed.mean = sample.mean;
   confirmed.standard_error = sample.StandardError();
   const base::Sample sad = MetricSample(trials, journal::InfoOf(journal::Objective::kSad).metric);
@@ -65,7 +80,8 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
     const base::Sample number = MetricSample(trials, scalar.name);
-    confirmed.scalars.push_back({.name = scalar.name, .mean = number.mean});
+    confirmed.scalars.push_back(
+        {.name = scalar.name, .mean = number.mean, .undefined = WhyUndefined(trials, scalar.name)});
   }
   return confirmed;
 }

@@ -109,6 +109,11 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   MeasurementFit fit{.experiment = experiment.name, .number = measured.name};
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
+  if (confirmed != nullptr && confirmed->scalars.at(number).undefined) {
+    fit.undefined = confirmed->scalars[number].undefined;
+    fit.meets = Meets::kNo;
+    return fit;
+  }
   double simulated = kNotKnown;
   double error = kNotKnown;
   int degrees = 0;
@@ -137,7 +142,8 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate) {
                             : ImageMeets(answer, *experiment, confirmed) == Meets::kNo;
     if (is_far) return true;
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      if (OffBy(experiment->numbers[i], confirmed.scalars.at(i)) > kCloseNumber) return true;
+      if (confirmed.scalars.at(i).undefined) return true;
+      if (OffBy(experiment->numbers[i], confirmed.scalars[i]) > kCloseNumber) return true;
     }
   }
   return false;
@@ -156,7 +162,9 @@ double FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
       add(SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
     }
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      add(OffBy(experiment->numbers[i], confirmed.scalars.at(i)) / kCloseNumber);
+      add(confirmed.scalars.at(i).undefined
+              ? std::numeric_limits<double>::infinity()
+              : OffBy(experiment->numbers[i], confirmed.scalars[i]) / kCloseNumber);
     }
   }
   return farthest;

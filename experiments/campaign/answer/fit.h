@@ -16,9 +16,11 @@
 //
 // One effective number of degrees of freedom for both would be exceeded 8 times in a hundred where
 // two seeds tell e. So a set that fits is said to miss in one of a hundred campaigns, about
-// (false_misses_test.cc counts); in between nothing is said.
+// (false_misses_test.cc counts); in between nothing is said. A number that none of the confirming
+// trials has is missed: what was measured does not exist there.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,7 @@ struct MeasurementFit {
   Meets meets = Meets::kUnknown;
   double off = kNotKnown;    // of an image in noise floors, of a number in standard errors
   double share = kNotKnown;  // of an image: SAD of the mean profile over the powder's area
+  std::optional<std::string> undefined{};  // of a number: why no confirming trial has one
 };
 
 // The image of an experiment, or a number of it by its place in the list.
@@ -55,8 +58,8 @@ std::vector<MeasurementFit> FitsOf(const Answer& answer);
 // do, though chance may be to blame.
 bool Misses(const Answer& answer, const ResultCandidate& candidate);
 
-// Its farthest measurement, in what is still a fit: above 1 it misses. NaN with nothing to judge
-// by.
+// Its farthest measurement, in what is still a fit: above 1 it misses; infinite where one does not
+// exist there. NaN with nothing to judge by.
 double FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
 
 // Error of the objective's confirmed mean. A few seeds that happen to agree say little of it.

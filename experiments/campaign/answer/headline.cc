@@ -49,6 +49,10 @@ std::string MissText(const Answer& answer) {
   if (HasAlarm(answer, {AlarmKind::kMisses})) {
     return "The recommended set misses a measurement: the ranges are of the sets that miss least.";
   }
+  if (HasAlarm(answer, {AlarmKind::kConfirmationFailed})) {
+    return "The recommended set could not be simulated again: the ranges are of what the model "
+           "expects.";
+  }
   if (HasAlarm(answer, {AlarmKind::kSearchMisses})) {
     return "The recommended set misses a measurement, and the search is not done: the ranges are "
            "provisional until it has found what fits.";

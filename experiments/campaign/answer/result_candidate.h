@@ -22,10 +22,11 @@ struct ResultScalar {
   // The mean's, by the scatter within all sets that were simulated again; not known where each
   // has one trial.
   double standard_error = kNotKnown;
-  int degrees = 0;  // of freedom that the standard error has; 0: not known
+  int degrees = 0;                         // of freedom that the standard error has; 0: not known
+  std::optional<std::string> undefined{};  // why none of the trials has a value
 
   static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
-  TALUS_FIELDS(name, mean, standard_error, degrees);
+  TALUS_FIELDS(name, mean, standard_error, degrees, undefined);
 };
 
 // How the confirming trials of one experiment came out.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <utility>
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
@@ -168,8 +169,8 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
 
 }  // namespace
 
-CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
-  CampaignEstimate e;
+TrialEstimates EstimateTrials(const CampaignSpec& spec) {
+  TrialEstimates e;
   for (int i = 0; i < static_cast<int>(ExperimentsOf(spec).size()); ++i) {
     for (const double factor : spec.coarse_graining.Levels()) {
       e.trials.push_back(EstimateTrial(spec, i, factor));
@@ -177,11 +178,16 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   }
   const TrialEstimate& first = e.trials.front();
   e.grain_steps_per_s = MeasureSpeed(TypicalCase(spec, 0, first.scale_factor), first.num_grains);
-  double dearest = 0;
   for (TrialEstimate& trial : e.trials) {
     trial.core_seconds = trial.grain_steps / e.grain_steps_per_s;
-    dearest = std::max(dearest, trial.core_seconds);
   }
+  return e;
+}
+
+CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
+  TrialEstimates made = EstimateTrials(spec);
+  CampaignEstimate e{.trials = std::move(made.trials), .grain_steps_per_s = made.grain_steps_per_s};
+  const double dearest = std::ranges::max(e.trials, {}, &TrialEstimate::core_seconds).core_seconds;
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
   const int num_confirming = spec.confirm.MostTrials();
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;

@@ -32,7 +32,14 @@ struct CampaignEstimate {
   double campaign_time = 0;  // [s], at most
 };
 
-// Simulates for about a second of processor time.
+// A trial of each experiment at each scale factor. Simulates for about a second of processor time.
+struct TrialEstimates {
+  std::vector<TrialEstimate> trials;  // by experiment, then the coarsest first
+  double grain_steps_per_s = 0;       // of one core, measured here
+};
+TrialEstimates EstimateTrials(const CampaignSpec& spec);
+
+// The same, and what follows for the campaign.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
 // Where the budget buys so few trials at the smallest scale factor that the answer rests on the

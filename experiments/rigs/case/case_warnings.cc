@@ -1,5 +1,7 @@
 #include "experiments/rigs/case/case_warnings.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/text/number_text.h"
@@ -32,6 +34,23 @@ std::string FillingWarning(const Case& c) {
   return "COHESIVE: placed densely, such a powder may keep the shape of its tube where it slumps "
          "when poured; fill it as the experiment was filled, most likely with filling.kind "
          "\"pour\"";
+}
+
+// By Beverloo's law, (D - 1.5 d)^2.5, coarse grains run out of an orifice more slowly than true
+// ones, and arch where those flow: the scale factor decides the test, whatever the contact.
+std::string OrificeWarning(const Case& c) {
+  constexpr double kMostSlower = 0.1;
+  const double f = c.coarse_graining.scale_factor;
+  const double orifice = c.rig.orifice_flow.orifice;
+  const double coarse = EstimatePowder(c).mean_diameter;
+  const auto opening = [&](double diameter) { return std::max(0.0, orifice - 1.5 * diameter); };
+  const double rate = std::pow(opening(coarse) / opening(coarse / f), 2.5);
+  if (!(rate < 1 - kMostSlower)) return {};
+  return "COARSE: the orifice is " + base::ShortNumber(orifice / coarse, 2) +
+         " grains across at scale factor " + base::ShortNumber(f) +
+         ", which by Beverloo's law run out at " + base::ShortNumber(100 * rate, 2) +
+         " % of the rate of true ones, and may arch where those flow: take a smaller scale factor, "
+         "or several";
 }
 
 }  // namespace
@@ -67,6 +86,7 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
     if (!text.empty()) warnings.push_back(std::move(text));
   };
   if (c.rig.kind == RigKind::kLiftedTube) warn(FillingWarning(c));
+  if (c.rig.kind == RigKind::kOrificeFlow) warn(OrificeWarning(c));
   const double f = c.coarse_graining.scale_factor;
   const double volume = c.powder.mass / c.powder.material.density;
   warn(engine::LostSizes(engine::SizeCurve(c.powder.sizes), volume / (f * f * f)));

@@ -158,9 +158,10 @@ void Rig::Check() {
 }
 
 // At every eighth look: a grain falls a diameter meanwhile, and it costs less than 1 % of the run.
+// Where the powder runs out of a funnel, filling is the test.
 void Rig::LookAtRegime() {
   constexpr std::int64_t kLooks = 8;
-  if (state_.phase < num_filling_phases_) return;
+  if (state_.phase < num_filling_phases_ && !vessel().funnel) return;
   if (simulation_.step() / check_steps_ % kLooks != 0) return;
   LookAtFlow({.particles = view().particles,
               .contacts = view().contacts,

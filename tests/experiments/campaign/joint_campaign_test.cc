@@ -276,7 +276,7 @@ TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
   EXPECT_EQ(warnings[0].kind, AlarmKind::kImplausible);
   EXPECT_EQ(warnings[0].experiment, "wide plate");
   EXPECT_THAT(AlarmText(warnings[0]),
-              HasSubstr("the contact law, the plate material or the set-up"));
+              HasSubstr("the contact law, the walls' material or the set-up"));
   EXPECT_EQ(warnings[1].kind, AlarmKind::kExtrapolated);
   EXPECT_EQ(warnings[2].kind, AlarmKind::kUnlearntScaleFactor);
   EXPECT_EQ(warnings[2].scale_factor, 2);

@@ -38,6 +38,45 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
 }
 
+// A drum whose simulations carry the powder round has no angle to compare.
+TEST(Misses, ANumberThatNoSimulationOfTheSetHasIsMissed) {
+  Answer answer = ConfirmedAt(4);
+  answer.experiments[0].has_image = false;
+  answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
+  answer.posterior->experiments[0].numbers = {{.predicted = 44, .predicted_sd = 1}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .undefined = "the drum carries it round"}};
+  const MeasurementFit fit = NumberFit(answer, answer.experiments[0], 0);
+  EXPECT_EQ(fit.meets, Meets::kNo);  // though the model expects 44
+  EXPECT_TRUE(Misses(answer, answer.confirmed[0]));
+  auto alarms = MissAlarms(answer);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_THAT(
+      AlarmText(alarms[0]),
+      HasSubstr("of \"heap\": simulated with it there is none (the drum carries it round)"));
+  // Another one that has it comes nearer.
+  answer.parameters = {{.name = "friction"}};
+  answer.confirmed.push_back(answer.confirmed[0]);
+  answer.confirmed[1].values = {0.3};
+  answer.confirmed[1].experiments[0].scalars = {{.name = "drum_angle_deg", .mean = 43}};
+  alarms = MissAlarms(answer);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_EQ(alarms[0].kind, AlarmKind::kSearchMisses);
+}
+
+// Without a model the search is to blame, and a miss is said all the same.
+TEST(Misses, AreSaidWithoutAModel) {
+  Answer answer = ConfirmedAt(4);
+  answer.posterior.reset();
+  answer.parameters = {{.name = "friction"}};
+  answer.experiments[0].has_image = false;
+  answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54}};
+  const auto alarms = MissAlarms(answer);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_EQ(alarms[0].kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("too few simulations for a model"));
+}
+
 // With runs their noise floor decides; with a map the share of the powder's area, unless simulated
 // pictures scatter as widely.
 TEST(Misses, AnImageThatTheSetMissesIsSaid) {

@@ -2,6 +2,7 @@
 
 #include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/compare/labels.h"
+#include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
@@ -138,7 +139,8 @@ PageValue PredictionJson(const PredictionView& view) {
                    {"high", shown(n.high)},
                    {"parameters_sd", shown(n.parameters_sd)},
                    {"run_sd", shown(n.run_sd)},
-                   {"parameters_share", NumberJson(n.parameters_share)}};
+                   {"parameters_share", NumberJson(n.parameters_share)},
+                   {"silent", SilentText(n)}};
     json["surrogate"] = nullptr;
     if (n.surrogate) {
       json["surrogate"] = {{"used", n.surrogate->is_used},
@@ -186,7 +188,7 @@ PageValue SensitivityJson(const SensitivityView& view) {
                      {"from", m.from},
                      {"to", m.to},
                      {"why_not", m.why_not},
-                     {"fits_no_set", m.FitsNoSet()},
+                     {"fits_no_set", m.FitsNoSet() && !view.table.FitsNoSet()},
                      {"moves_still", m.moves_still},
                      {"answer", ListJson(m.answer, shift)}};
   };
@@ -208,9 +210,7 @@ PageValue HeadlineJson(const ReportData& data) {
       {"values", ListJson(a.parameters, ValueJson)},
       {"sentences", HeadlineWords(e)},
       {"verdict_kind", a.verdict ? base::NameOf(a.verdict->kind) : ""},
-      {"fits",
-       !campaign::HasAlarm(a, {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
-                               campaign::AlarmKind::kMisses, campaign::AlarmKind::kSearchMisses})},
+      {"fits", !campaign::IsDoubtful(a)},
       {"trade_off", TradeOffWords(e)},
       {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
       {"unsettled", a.unsettled.has_value()},

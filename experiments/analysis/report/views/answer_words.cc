@@ -83,6 +83,9 @@ std::string UseWords(const Answer& answer) {
     return "No: a simulation with it misses what was measured. Check contact law, plate and set-up "
            "first.";
   }
+  if (campaign::HasAlarm(answer, {AlarmKind::kConfirmationFailed})) {
+    return "No: the simulations with it failed. Find out why first.";
+  }
   if (campaign::HasAlarm(answer, {AlarmKind::kSearchMisses})) {
     return "No: a simulation with it misses what was measured, and the search is not done. "
            "Simulate more first.";

@@ -1,6 +1,6 @@
 // What `talus predict` has found: a line each on the first screen, and a section with all of it.
 const predictedRange = (n) => formatUnit(n.mean, n.unit) + ", 90\u00a0% of runs in " + format(n.low) + " to " +
-  formatUnit(n.high, n.unit);
+  formatUnit(n.high, n.unit) + (n.silent ? ", " + n.silent : "");
 
 const shareText = (n) => n.parameters_share === null ? "" : "; " + percent(n.parameters_share) +
   " of the variance from the parameters";
@@ -44,7 +44,7 @@ function predictionCard(p) {
     table("Prediction of " + p.name, [{title: "Number", text: true}, {title: "Mean"}, {title: "90\u00a0% of runs"},
         {title: "Parameters, sd"}, {title: "Single run, sd"}, {title: "Parameters' share of the variance"},
         {title: "Told by", text: true}, {title: "Measured", text: true}],
-      p.numbers.map((n) => n.mean === null ? [n.title, "–", "–", "–", "–", "–", "–", "–"] : [n.title, formatUnit(n.mean, n.unit),
+      p.numbers.map((n) => n.mean === null ? [n.title + (n.silent ? " (" + n.silent + ")" : ""), "–", "–", "–", "–", "–", "–", "–"] : [n.title + (n.silent ? " (" + n.silent + ")" : ""), formatUnit(n.mean, n.unit),
         format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
         formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), toldBy(n), measuredThere(n)])),
     pictures.length ? element("div", {class: "grid two"}, pictures) : null);
