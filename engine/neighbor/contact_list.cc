@@ -24,7 +24,7 @@ constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them e
 constexpr std::int64_t kPanelSize = 1024;
 
 // An overlap of spheres, in radii of the smaller, that no contact law is meant for.
-constexpr double kMaxOverlap = 1;
+constexpr double kMaxOverlapInRun = 1;
 
 // As far as that a sphere may sink into a wall, in its radii. Between two lists it moves by less
 // than the skin, 0.6 radii at most: from a higher place to one as far behind the wall takes more,
@@ -162,7 +162,7 @@ void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scr
     };
     for (const std::int32_t j : scratch.found.touching) {
       const double limit =
-          p.Radius(i) + p.Radius(j) - kMaxOverlap * std::min(p.Radius(i), p.Radius(j));
+          p.Radius(i) + p.Radius(j) - kMaxOverlapInRun * std::min(p.Radius(i), p.Radius(j));
       const Vec3 offset = p.Position(j) - p.Position(i);
       if (!(base::Dot(offset, offset) > limit * limit)) {
         throw base::Error("spheres " + std::to_string(p.ids[i]) + " and " +
