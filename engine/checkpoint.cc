@@ -137,7 +137,7 @@ void VisitList(Archive& archive, ContactList& list) {
   ListCounts counts = list.counts();
   archive(counts);
   if constexpr (std::is_same_v<Archive, ByteReader>) {
-    list.SetCounts(counts);
+    list.Restored(counts);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <string>
 
 #include "base/error.h"
@@ -95,6 +96,7 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
     return alone ? place++
                  : std::atomic_ref<std::int64_t>(place).fetch_add(1, std::memory_order_relaxed);
   };
+  assert(shares_.num_chunks() == static_cast<std::int64_t>(chunks_.size()));
   const auto visit_all = [&](const auto& visit) {
     ForChunks(team, shares_, [&](std::int64_t c) { VisitTouching(chunks_[c], visit); });
   };
@@ -260,6 +262,15 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Sc
     }
   }
   panel.window_end = RoundUp(last + 1);
+}
+
+void ContactList::Restored(const ListCounts& counts) {
+  counts_ = counts;
+  for (Chunk& chunk : chunks_) {
+    chunk.counts = {};
+    for (const PairRun& run : chunk.runs) chunk.counts.pairs += run.num_pairs;
+    VisitTouching(chunk, [&](auto&&...) { ++chunk.counts.touching; });
+  }
 }
 
 void ContactList::PrepareForces(Team& team) {
