@@ -340,7 +340,7 @@ void ContactList::FindAll(const RebuildInput& input) {
     for (std::int64_t c = begin; c < end; ++c) {
       try {
         Find(input, chunks_[c], scratch_[member]);
-      } catch (const base::Error&) {
+      } catch (...) {  // memory may run out, too, and a task of the team must not throw
         errors_[c] = std::current_exception();
       }
     }
