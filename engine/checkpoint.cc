@@ -137,7 +137,7 @@ void VisitList(Archive& archive, ContactList& list) {
   ListCounts counts = list.counts();
   archive(counts);
   if constexpr (std::is_same_v<Archive, ByteReader>) {
-    list.SetCounts(counts);
+    list.Restored(counts);
   }
 }
 
@@ -179,6 +179,7 @@ Head ReadHead(std::string_view bytes) {
 }  // namespace
 
 std::string Simulation::Checkpoint() const {
+  state_->RequireUsable();
   ByteWriter state;
   VisitState(state, *state_);
   Head head;
@@ -190,6 +191,9 @@ std::string Simulation::Checkpoint() const {
 }
 
 Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
+  base::Problems problems;
+  problems.Require(num_threads >= 1, "num_threads", num_threads, "must be at least 1");
+  problems.ThrowIfAny();
   const Head head = ReadHead(bytes);
   bytes.remove_prefix(sizeof(Head));
   if (bytes.size() < head.size) throw base::Error("the checkpoint is truncated");

@@ -35,6 +35,7 @@ void ValidateParticles(const Scene& scene, base::Problems& problems) {
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const Particle& p = scene.particles[i];
     problems.Within(Item("particles", i), [&] {
+      problems.Require(p.id >= 0, "id", static_cast<double>(p.id), "must not be negative");
       ValidateParticle(p, static_cast<int>(scene.materials.size()), problems);
       problems.Require(ids.insert(p.id).second, "id", "is given twice");
     });
@@ -108,12 +109,16 @@ void ValidateSpeed(const Particle& p, double time_step, double most, base::Probl
 
 void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
                    base::Problems& problems) {
-  const double moves = MaxPassingSpeed(wall) * time_step / smallest_radius;
+  ValidateSpeed({MaxPassingSpeed(wall), smallest_radius, time_step}, "motion", problems);
+}
+
+void ValidateSpeed(const PassingSpeed& passing, const char* key, base::Problems& problems) {
+  const double moves = passing.speed * passing.time_step / passing.smallest_radius;
   if (moves <= kMostLater) return;
-  problems.Add("motion", "moves the surface by " + base::ShortNumber(moves) +
-                             " radii of the smallest sphere in a time step, above the " +
-                             base::ShortNumber(kMostLater) +
-                             " that holds; make it slower, or time_step smaller");
+  problems.Add(key, "moves the surface by " + base::ShortNumber(moves) +
+                        " radii of the smallest sphere in a time step, above the " +
+                        base::ShortNumber(kMostLater) +
+                        " that holds; make it slower, or time_step smaller");
 }
 
 double SmallestRayleighTime(const Scene& scene) {

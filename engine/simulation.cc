@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "engine/blow_up.h"
 #include "engine/bodies/wall_motion.h"
+#include "engine/overlap_check.h"
 #include "engine/simulation_state.h"
 
 namespace talus::engine {
@@ -60,11 +61,27 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   return state;
 }
 
+void RequireAmong(const char* what, int index, std::size_t count) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return;
+  throw base::ConfigError(std::string(what) + " " + std::to_string(index) + ": is not among the " +
+                          std::to_string(count) + " of the simulation, which are numbered from 0");
+}
+
+// Infinite without spheres.
+double SmallestRadius(const ParticleStore& particles) {
+  double smallest = INFINITY;
+  for (std::int64_t i = 0; i < particles.num; ++i) {
+    smallest = std::min(smallest, particles.Radius(i));
+  }
+  return smallest;
+}
+
 void ValidateAdded(const SimulationState& state, const Particle& p,
                    std::unordered_set<std::int64_t>& ids, base::Problems& problems) {
+  problems.Require(p.id >= 0, "id", static_cast<double>(p.id), "must not be negative");
   problems.Require(ids.insert(p.id).second, "id", static_cast<double>(p.id), "is given twice");
-  problems.Require(p.radius > 0 && base::IsFinite(p.position) && base::IsFinite(p.velocity) &&
-                       base::IsFinite(p.angular_velocity),
+  problems.Require(p.radius > 0 && p.radius < 1e100 && base::IsFinite(p.position) &&
+                       base::IsFinite(p.velocity) && base::IsFinite(p.angular_velocity),
                    "radius", p.radius, "must be positive, and the motion finite");
   const auto num_materials = static_cast<int>(state.materials.size());
   const bool known = p.material >= 0 && p.material < num_materials;
@@ -74,6 +91,28 @@ void ValidateAdded(const SimulationState& state, const Particle& p,
   problems.Require(state.dt <= kMaxRayleighFraction * rayleigh, "time_step", state.dt,
                    "exceeds 0.4 Rayleigh times of a sphere that is added");
   ValidateSpeed(p, state.dt, kMostLater, problems);
+}
+
+void ValidateAdded(const SimulationState& state, std::span<const Particle> spheres) {
+  base::Problems problems;
+  std::unordered_set<std::int64_t> ids(state.particles.ids.begin(), state.particles.ids.end());
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    problems.Within("spheres[" + std::to_string(k) + "]",
+                    [&] { ValidateAdded(state, spheres[k], ids, problems); });
+  }
+  if (problems.empty()) ValidateAddedOverlaps(state, spheres, problems);
+  problems.ThrowIfAny();
+}
+
+// Walls that are pressed move as they do by themselves, and at most as fast as nothing holds them.
+void ValidatePressSpeeds(const SimulationState& state, const Press& press,
+                         base::Problems& problems) {
+  const double smallest = SmallestRadius(state.particles);
+  const double speed = std::max(std::abs(press.speed), FreeSpeed(press));
+  for (const int wall : press.walls) {
+    const double prescribed = MaxPassingSpeed(state.walls.walls()[static_cast<std::size_t>(wall)]);
+    ValidateSpeed({prescribed + speed, smallest, state.dt}, "force", problems);
+  }
 }
 
 // After a change of how walls move.
@@ -92,6 +131,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 void Simulation::Advance(std::int64_t num_steps) {
+  state_->RequireUsable();
   for (std::int64_t k = 0; k < num_steps; ++k) state_->Advance();
 }
 
@@ -99,12 +139,24 @@ std::int64_t Simulation::step() const { return state_->step; }
 double Simulation::time() const { return state_->time(); }
 double Simulation::time_step() const { return state_->dt; }
 std::int64_t Simulation::num_particles() const { return state_->particles.num; }
-std::vector<Particle> Simulation::Particles() const { return state_->FullStep(); }
-std::vector<ContactInfo> Simulation::Contacts() const { return state_->Contacts(); }
-std::vector<WallLoad> Simulation::WallLoads() const { return state_->WallLoads(); }
 Vec3 Simulation::Gravity() const { return state_->gravity; }
 const std::vector<TurnStep>& Simulation::GravityTurns() const { return state_->gravity_turns; }
 const std::vector<Wall>& Simulation::Walls() const { return state_->walls.walls(); }
+
+std::vector<Particle> Simulation::Particles() const {
+  state_->RequireUsable();
+  return state_->FullStep();
+}
+
+std::vector<ContactInfo> Simulation::Contacts() const {
+  state_->RequireUsable();
+  return state_->Contacts();
+}
+
+std::vector<WallLoad> Simulation::WallLoads() const {
+  state_->RequireUsable();
+  return state_->WallLoads();
+}
 
 std::vector<bool> Simulation::ResistsSpin() const {
   const std::size_t num = state_->materials.size();
@@ -119,7 +171,7 @@ std::vector<bool> Simulation::ResistsSpin() const {
 
 EnergySums Simulation::Energies() const {
   EnergySums sums;
-  for (const Particle& p : state_->FullStep()) {
+  for (const Particle& p : Particles()) {
     const Material& material = state_->materials[p.material];
     const double mass = SphereMass(material, p.radius);
     sums.translational += 0.5 * mass * base::Dot(p.velocity, p.velocity);
@@ -132,7 +184,7 @@ EnergySums Simulation::Energies() const {
 
 double Simulation::MaxSpeed() const {
   double speed = 0;
-  for (const Particle& p : state_->FullStep()) speed = std::max(speed, base::Norm(p.velocity));
+  for (const Particle& p : Particles()) speed = std::max(speed, base::Norm(p.velocity));
   return speed;
 }
 
@@ -147,10 +199,15 @@ ListStatistics Simulation::Statistics() const {
 }
 
 void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
-  Wall changed = Walls().at(wall);
+  state_->RequireUsable();
+  RequireAmong("wall", wall, Walls().size());
+  Wall changed = Walls()[static_cast<std::size_t>(wall)];
   changed.motion = std::move(motion);
   base::Problems problems;
   ValidateWall(changed, static_cast<int>(state_->materials.size()), problems);
+  if (problems.empty()) {
+    ValidateSpeed(changed, SmallestRadius(state_->particles), state_->dt, problems);
+  }
   problems.ThrowIfAny();
   state_->walls.SetMotion(wall, std::move(changed.motion));
   WallsSpeedUp(*state_);
@@ -159,14 +216,18 @@ void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
 const std::vector<Press>& Simulation::Presses() const { return state_->walls.presses(); }
 
 void Simulation::SetPresses(std::vector<Press> presses) {
+  state_->RequireUsable();
   base::Problems problems;
   for (const Press& press : presses) ValidatePress(press, state_->walls.size(), problems);
+  problems.ThrowIfAny();
+  for (const Press& press : presses) ValidatePressSpeeds(*state_, press, problems);
   problems.ThrowIfAny();
   state_->walls.SetPresses(std::move(presses));
   WallsSpeedUp(*state_);
 }
 
 void Simulation::SetGravityTurns(std::vector<TurnStep> turns) {
+  state_->RequireUsable();
   base::Problems problems;
   ValidateTurns(turns, "gravity_turns", problems);
   problems.ThrowIfAny();
@@ -174,20 +235,19 @@ void Simulation::SetGravityTurns(std::vector<TurnStep> turns) {
 }
 
 void Simulation::Add(std::span<const Particle> spheres) {
-  if (spheres.empty()) return;
   SimulationState& state = *state_;
-  base::Problems problems;
-  std::unordered_set<std::int64_t> ids(state.particles.ids.begin(), state.particles.ids.end());
-  for (const Particle& p : spheres) ValidateAdded(state, p, ids, problems);
-  problems.ThrowIfAny();
+  state.RequireUsable();
+  if (spheres.empty()) return;
+  ValidateAdded(state, spheres);
+  std::vector<Particle> behind(spheres.begin(), spheres.end());
+  for (Particle& p : behind) p.velocity -= 0.5 * state.dt * state.gravity;  // half a step (M3)
   const double smallest = SmallestOf(spheres);
   if (state.particles.num == 0) {
     state.tuner = SkinTuner(smallest);
   } else {
     state.tuner.Admit(smallest);
   }
-  std::vector<Particle> behind(spheres.begin(), spheres.end());
-  for (Particle& p : behind) p.velocity -= 0.5 * state.dt * state.gravity;  // half a step (M3)
+  state.usable = false;  // the list does not know them
   state.particles.Append(behind, state.materials);
   state.RebuildAll();
   state.reference_speed = std::max(state.reference_speed, ReferenceSpeed(state));
@@ -195,11 +255,16 @@ void Simulation::Add(std::span<const Particle> spheres) {
 }
 
 void Simulation::RemoveWall(int wall) {
+  state_->RequireUsable();
+  RequireAmong("wall", wall, Walls().size());
   state_->walls.Remove(wall);
   state_->RebuildAll();
 }
 
-bool Simulation::IsRemoved(int wall) const { return state_->walls.Removed(wall); }
+bool Simulation::IsRemoved(int wall) const {
+  RequireAmong("wall", wall, Walls().size());
+  return state_->walls.Removed(wall);
+}
 
 double Simulation::LargestRadius() const {
   double largest = 0;
@@ -210,7 +275,7 @@ double Simulation::LargestRadius() const {
 }
 
 std::int64_t Simulation::RemoveIf(const std::function<bool(const Particle&)>& leaves) {
-  const std::vector<Particle> particles = state_->FullStep();
+  const std::vector<Particle> particles = Particles();
   std::vector<std::int64_t> gone;
   for (const Particle& p : particles) {
     if (leaves(p)) gone.push_back(p.id);
@@ -227,6 +292,8 @@ std::int64_t Simulation::RemoveIf(const std::function<bool(const Particle&)>& le
 }
 
 void Simulation::SetMaterial(int index, const Material& material) {
+  state_->RequireUsable();
+  RequireAmong("material", index, state_->materials.size());
   base::Problems problems;
   material.Validate(problems);
   for (std::int64_t i = 0; i < state_->particles.num && problems.empty(); ++i) {
@@ -236,7 +303,8 @@ void Simulation::SetMaterial(int index, const Material& material) {
                      "exceeds 0.4 Rayleigh times of a sphere of the new material");
   }
   problems.ThrowIfAny();
-  state_->materials.at(index) = material;
+  state_->usable = false;  // the list is of the old one
+  state_->materials[static_cast<std::size_t>(index)] = material;
   state_->SetConstants();
   state_->particles.SetMasses(state_->materials);
   state_->RebuildAll();

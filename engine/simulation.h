@@ -1,4 +1,9 @@
 // The solver: a scene that advances in time.
+//
+// What a member refuses with base::ConfigError changes nothing. Any other error while the neighbour
+// list is made (a sphere that goes through a wall, no memory left) leaves the simulation unusable:
+// from then on every member that changes it, or that looks at contacts or motion, throws
+// base::Error and says so.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +52,7 @@ struct ListStatistics {
   const char* kernels = "";       // instruction set: "avx512", "avx2", "sse2"
 };
 
+// Two threads may call const members of one object at once, but for those that are said to write.
 class Simulation {
  public:
   // Throws base::ConfigError with every problem of the scene.
@@ -64,12 +70,14 @@ class Simulation {
   double time_step() const;  // [s]
   std::int64_t num_particles() const;
 
-  std::vector<Particle> Particles() const;    // by id, velocities at the full step
+  // These three write to scratch memory of the object: one at a time.
+  std::vector<Particle> Particles() const;  // by id, velocities at the full step
+  EnergySums Energies() const;
+  double MaxSpeed() const;  // of any sphere [m/s]
+
   std::vector<ContactInfo> Contacts() const;  // δ > 0 now, ordered by (first, second)
   std::vector<WallLoad> WallLoads() const;    // of each wall
-  EnergySums Energies() const;
-  double MaxSpeed() const;       // of any sphere [m/s]
-  double LargestRadius() const;  // [m]; 0 without spheres
+  double LargestRadius() const;               // [m]; 0 without spheres
   const std::vector<Wall>& Walls()
       const;  // shapes as they stand now; removed ones keep their place
   ListStatistics Statistics() const;
@@ -84,18 +92,22 @@ class Simulation {
   void SetGravityTurns(std::vector<TurnStep> turns);
 
   // Puts more spheres into the scene. Throws base::ConfigError for one with a number that is in
-  // use, a material that is not there, or for which the time step is too long; base::Error for one
-  // that stands in another sphere or a wall.
+  // use or negative, a material that is not there, for which the time step is too long, or that
+  // overlaps another sphere or a wall by more than a sphere of a Scene may.
   void Add(std::span<const Particle> spheres);
 
   // From now on the wall follows `motion` (times absolute); what was prescribed before is dropped.
+  // Throws base::ConfigError for a wall that is not there, and for a motion so fast that a sphere
+  // could pass it unseen.
   void SetMotion(int wall, std::vector<MotionStep> motion);
 
-  // From now on these walls are pressed; what was pressed before is not any more.
+  // From now on these walls are pressed; what was pressed before is not any more. Throws
+  // base::ConfigError as SetMotion does; the speed is the one at which nothing holds them.
   void SetPresses(std::vector<Press> presses);
   const std::vector<Press>& Presses() const;  // at their speeds now
 
-  // Takes a wall out of the scene for good: nothing touches it any more.
+  // Takes a wall out of the scene for good: nothing touches it any more. Throws base::ConfigError
+  // for one that is not there, as IsRemoved does.
   void RemoveWall(int wall);
   bool IsRemoved(int wall) const;
 
@@ -103,11 +115,11 @@ class Simulation {
   std::int64_t RemoveIf(const std::function<bool(const Particle&)>& leaves);
 
   // Replaces one material, so that a powder can be filled with other friction than it is tested
-  // with.
+  // with. Throws base::ConfigError for one that is not there or for which the step is too long.
   void SetMaterial(int index, const Material& material);
 
   // The whole state, versioned and checksummed; Restore goes on with the same bits. Restore throws
-  // base::Error for a truncated, damaged or foreign text.
+  // base::Error for a truncated, damaged or foreign text, base::ConfigError for num_threads < 1.
   std::string Checkpoint() const;
   static Simulation Restore(std::string_view bytes, int num_threads = 1);
 

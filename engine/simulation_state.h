@@ -50,11 +50,16 @@ struct SimulationState {
   std::vector<KernelConstants> kernel_constants;  // the same
   double adhesion_gap = 0;                        // largest of them [m]
 
+  // Whether list and particles belong together: not between a change of the particles and the end
+  // of the rebuild, nor ever after a rebuild that failed.
+  bool usable = true;
+  void RequireUsable() const;  // throws base::Error
+
   double time() const { return static_cast<double>(step) * dt; }
   StepView View();
   ForcesFunction Forces() const;  // the kernel of the models
 
-  // Makes the team; more threads than chunks would have nothing to do.
+  // Makes the team of `num_threads`, >= 1; more threads than chunks would have nothing to do.
   void SetThreads(int num_threads);
 
   // After a change of materials or pairs.

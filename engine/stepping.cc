@@ -1,5 +1,6 @@
 // The step: forces, motion, walls, and the list when it is due.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <mutex>
 #include <numeric>
@@ -59,7 +60,15 @@ ForcesFunction SimulationState::Forces() const {
   return kernels->forces[RowOf(models)][static_cast<int>(models.rolling)];
 }
 
+void SimulationState::RequireUsable() const {
+  if (usable) return;
+  throw base::Error(StepText(*this) +
+                    "the simulation cannot be used any more, as an earlier error has left its "
+                    "neighbour list unfinished; restore a checkpoint or start anew");
+}
+
 void SimulationState::SetThreads(int num_threads) {
+  assert(num_threads >= 1);
   team = std::make_unique<Team>(std::min(num_threads, kMaxChunks));
 }
 
@@ -95,6 +104,7 @@ void SimulationState::RebuildAll() {
 }
 
 void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
+  usable = false;  // until nothing can fail any more
   tuner.Retune();
   speed_limit = SpeedLimit(*this);
   try {
@@ -112,6 +122,7 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   const ListCounts counts = list.counts();
   tuner.Rebuilt(particles.num, counts.pairs, counts.touching);
   wall_moved = 0;
+  usable = true;
 }
 
 void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& panel) {
@@ -126,6 +137,8 @@ MotionCheck SimulationState::Sweep() {
   const StepView view = View();
   const ForcesFunction forces = Forces();
   std::vector<Chunk>& chunks = list.chunks();
+  assert(list.shares().num_members() == team->size());
+  assert(list.shares().num_chunks() == static_cast<std::int64_t>(chunks.size()));
   team->Run([&](int member) {
     const auto [begin, end] = list.shares().Of(member);
     const std::int64_t moves_from = member == 0 ? 0 : std::min(begin + list.reach(), end);

@@ -12,7 +12,7 @@ using base::Vec3;
 
 // Velocities are those of the full step (M3).
 struct Particle {
-  std::int64_t id = 0;         // kept for life; output is sorted by it
+  std::int64_t id = 0;         // >= 0; kept for life; output is sorted by it
   int material = 0;            // index into Scene::materials
   double radius = 0;           // [m], > 0
   Vec3 position = {};          // [m]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <string>
 
 #include "base/error.h"
@@ -24,7 +25,7 @@ constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them e
 constexpr std::int64_t kPanelSize = 1024;
 
 // An overlap of spheres, in radii of the smaller, that no contact law is meant for.
-constexpr double kMaxOverlap = 1;
+constexpr double kMaxOverlapInRun = 1;
 
 // As far as that a sphere may sink into a wall, in its radii. Between two lists it moves by less
 // than the skin, 0.6 radii at most: from a higher place to one as far behind the wall takes more,
@@ -95,6 +96,7 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
     return alone ? place++
                  : std::atomic_ref<std::int64_t>(place).fetch_add(1, std::memory_order_relaxed);
   };
+  assert(shares_.num_chunks() == static_cast<std::int64_t>(chunks_.size()));
   const auto visit_all = [&](const auto& visit) {
     ForChunks(team, shares_, [&](std::int64_t c) { VisitTouching(chunks_[c], visit); });
   };
@@ -162,7 +164,7 @@ void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scr
     };
     for (const std::int32_t j : scratch.found.touching) {
       const double limit =
-          p.Radius(i) + p.Radius(j) - kMaxOverlap * std::min(p.Radius(i), p.Radius(j));
+          p.Radius(i) + p.Radius(j) - kMaxOverlapInRun * std::min(p.Radius(i), p.Radius(j));
       const Vec3 offset = p.Position(j) - p.Position(i);
       if (!(base::Dot(offset, offset) > limit * limit)) {
         throw base::Error("spheres " + std::to_string(p.ids[i]) + " and " +
@@ -262,6 +264,15 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Sc
   panel.window_end = RoundUp(last + 1);
 }
 
+void ContactList::Restored(const ListCounts& counts) {
+  counts_ = counts;
+  for (Chunk& chunk : chunks_) {
+    chunk.counts = {};
+    for (const PairRun& run : chunk.runs) chunk.counts.pairs += run.num_pairs;
+    VisitTouching(chunk, [&](auto&&...) { ++chunk.counts.touching; });
+  }
+}
+
 void ContactList::PrepareForces(Team& team) {
   const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
   std::int64_t num_rows = 0;
@@ -329,7 +340,7 @@ void ContactList::FindAll(const RebuildInput& input) {
     for (std::int64_t c = begin; c < end; ++c) {
       try {
         Find(input, chunks_[c], scratch_[member]);
-      } catch (const base::Error&) {
+      } catch (...) {  // memory may run out, too, and a task of the team must not throw
         errors_[c] = std::current_exception();
       }
     }

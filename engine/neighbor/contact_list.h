@@ -73,9 +73,12 @@ class ContactList {
   // Which chunks each member of the team has.
   const WorkShares& shares() const { return shares_; }
 
+  // The chunks have been read from a checkpoint, with the counts of their list. What each of them
+  // holds is counted, so that members have equal work from the first step on.
+  void Restored(const ListCounts& counts);
+
   // How many chunks after its own a chunk's pairs reach into, at most.
   std::int64_t reach() const { return reach_; }
-  void SetCounts(const ListCounts& counts) { counts_ = counts; }
 
   // Force rows and overhangs of the chunks as they are now. One thread computes a chunk and moves
   // it before it goes to the next: then the chunks share a few sets of rows, which stay in the

@@ -44,6 +44,14 @@ class Grid {
     });
   }
 
+  // Calls visit(range) for the points in those cells, row by row.
+  template <class Visitor>
+  void VisitInBox(const double* point, double half, Visitor&& visit) const {
+    VisitRows(point, half, [&](std::int64_t row_start, std::int64_t from, std::int64_t to) {
+      visit(Cells(row_start, from, to));
+    });
+  }
+
   // Calls visit(range) for the points in those cells that may come after the i-th sorted one.
   template <class Visitor>
   void VisitLaterInBox(std::int64_t i, const double* point, double half, Visitor&& visit) const {

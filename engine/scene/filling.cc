@@ -212,6 +212,10 @@ double FillRegion::Area() const {
                                     : std::numbers::pi / 4 * *diameter * *diameter;
 }
 
+double FillRegion::Narrowest() const {
+  return shape == RegionShape::kBox ? std::min(*width_x, *width_y) : *diameter;
+}
+
 void FillRegion::Validate(base::Problems& problems) const {
   const bool box = shape == RegionShape::kBox;
   const auto positive = [&](const char* key, const std::optional<double>& value, bool needed) {
@@ -227,7 +231,28 @@ void FillRegion::Validate(base::Problems& problems) const {
   problems.Require(base::IsFinite(base), "base", "must be finite");
 }
 
+void FillRequest::Validate(std::span<const double> radii, base::Problems& problems) const {
+  problems.Within("region", [&] { region.Validate(problems); });
+  problems.Require(solid_fraction > 0 && solid_fraction <= 0.6, "solid_fraction", solid_fraction,
+                   "must be in (0, 0.6]");
+  problems.Require(max_overlap > 0 && std::isfinite(max_overlap), "max_overlap", max_overlap,
+                   "must be positive");
+  problems.Require(max_sweeps > 0, "max_sweeps", max_sweeps, "must be positive");
+  if (!problems.empty()) return;
+  const double narrowest = region.Narrowest();
+  const double room = std::min(narrowest, region.height.value_or(narrowest));
+  const double most = room / 2 * (1 + 1e-9);  // drawn radii are rounded
+  const auto fits = [&](double r) { return r > 0 && r <= most; };
+  const auto bad = std::ranges::find_if_not(radii, fits);
+  if (bad == radii.end()) return;
+  problems.Require(false, "radii[" + std::to_string(bad - radii.begin()) + "]", *bad,
+                   "must be positive, and at most half of the region's width and height");
+}
+
 Filling Fill(std::span<const double> radii, const FillRequest& request) {
+  base::Problems problems;
+  request.Validate(radii, problems);
+  problems.ThrowIfAny();
   Filling filling;
   if (radii.empty()) return filling;
   const FillRegion& region = request.region;

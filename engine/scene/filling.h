@@ -46,7 +46,8 @@ struct FillRegion {
           {.dimension = kLength, .doc = "default: open, as high as the grains need"});
   }
   void Validate(base::Problems& problems) const;
-  double Area() const;  // of the lower face [m²]
+  double Area() const;       // of the lower face [m²]
+  double Narrowest() const;  // of its widths [m]
 };
 
 struct FillRequest {
@@ -55,6 +56,9 @@ struct FillRequest {
   double max_overlap = 0.001;    // the filling ends when no overlap / radius is above [-], > 0
   int max_sweeps = 1000;         // cap [-], > 0
   std::uint64_t seed = 1;
+
+  // Of grains of these radii [m], each of which must fit into the region.
+  void Validate(std::span<const double> radii, base::Problems& problems) const;
 };
 
 struct Filling {
@@ -64,6 +68,7 @@ struct Filling {
   int num_sweeps = 0;
 };
 
+// Throws base::ConfigError for a request that is not valid of these radii [m].
 Filling Fill(std::span<const double> radii, const FillRequest& request);
 
 // Why so many grains cannot be simulated on this machine; empty when they can.

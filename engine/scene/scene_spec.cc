@@ -44,11 +44,10 @@ std::string BadMass(double volume, const SizeCurve& curve) {
 void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
                  base::Problems& problems) {
   const FillRegion& region = fill.region;
-  const bool box = region.shape == RegionShape::kBox;
-  const double narrowest =
-      box ? std::min(*region.width_x, *region.width_y) : region.diameter.value();
-  problems.Require(curve.largest() <= narrowest, "region", narrowest,
+  problems.Require(curve.largest() <= region.Narrowest(), "region", region.Narrowest(),
                    "must be wider than the largest grain");
+  problems.Require(!region.height || curve.largest() <= *region.height, "region",
+                   region.height.value_or(0), "must be higher than the largest grain");
   problems.Require(volume <= kDensest * region.Area() * region.height.value_or(1e300), "mass",
                    fill.mass,
                    "must be less: its grains alone take above 64 % of the "

@@ -2,7 +2,12 @@
 
 #include <immintrin.h>
 
+#include <cassert>
 #include <chrono>
+#include <exception>
+#include <string>
+
+#include "base/error.h"
 
 namespace talus::engine {
 
@@ -61,12 +66,24 @@ void Milestone::Sleep(std::int64_t number) {
 }
 
 Team::Team(int size) : halves_(size), done_(size), patience_(size) {
-  for (int member = 1; member < size; ++member) {
-    threads_.emplace_back([this, member] { Work(member); });
+  assert(size >= 1);
+  try {
+    for (int member = 1; member < size; ++member) {
+      threads_.emplace_back([this, member] { Work(member); });
+    }
+  } catch (const std::exception& error) {
+    const std::size_t num_started = threads_.size() + 1;
+    BreakUp();
+    throw base::Error("the machine gives " + std::to_string(num_started) + " of " +
+                      std::to_string(size) + " threads (" + error.what() +
+                      "); take fewer threads, or raise the limits of processes and memory "
+                      "(ulimit -u, ulimit -v)");
   }
 }
 
-Team::~Team() {
+Team::~Team() { BreakUp(); }
+
+void Team::BreakUp() {
   call_ = nullptr;
   given_.Reach(num_tasks_ + 1);
   for (std::thread& thread : threads_) thread.join();

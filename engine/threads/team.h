@@ -52,6 +52,7 @@ struct Share {
 
 class Team {
  public:
+  // `size` >= 1, the calling thread among them. Throws base::Error when the machine gives fewer.
   explicit Team(int size);
   ~Team();
   Team(const Team&) = delete;
@@ -95,6 +96,7 @@ class Team {
 
   void RunPlain(PlainTask call, const void* task);
   void Work(int member);
+  void BreakUp();  // ends the threads
 
   PlainTask call_ = nullptr;  // null: the team breaks up
   const void* task_ = nullptr;

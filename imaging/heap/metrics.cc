@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
-#include <stdexcept>
+#include <string>
 
 #include "base/error.h"
 #include "imaging/heap/heap_shape.h"
@@ -176,6 +176,20 @@ std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
           {"iou", "-", Iou(heap.image, reference.image), Measured{.value = 1}}};
 }
 
+std::string SizeText(const GrayImage& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height) + " px";
+}
+
+void Validate(const Profile& profile, base::Problems& problems) {
+  const auto& [image, frame] = profile;
+  problems.Within("frame", [&] { frame.Validate(problems); });
+  const std::size_t num_pixels =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  problems.Require(image.width == frame.width && image.height == frame.height &&
+                       image.pixels.size() == num_pixels,
+                   "image", "has " + SizeText(image) + ", which must be its frame's");
+}
+
 std::string FrameText(const Frame& frame) {
   std::ostringstream text;
   text.precision(10);
@@ -201,6 +215,10 @@ double Nebp(const GrayImage& image) {
 }
 
 double Sad(const GrayImage& a, const GrayImage& b) {
+  if (a.width != b.width || a.height != b.height || a.pixels.size() != b.pixels.size()) {
+    throw base::ConfigError("the two images cannot be compared pixel by pixel: one has " +
+                            SizeText(a) + ", the other " + SizeText(b));
+  }
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
   return static_cast<double>(sum) / 255;
@@ -232,6 +250,10 @@ std::vector<Metric> DescribeProfile(const HeapImages& heap, const MetricOptions&
 std::vector<Metric> CompareProfiles(const HeapImages& heap, const HeapImages& reference,
                                     const MetricOptions& options) {
   RequireSameFrame(heap.profile.frame, reference.profile.frame);
+  base::Problems problems;
+  problems.Within("heap", [&] { Validate(heap.profile, problems); });
+  problems.Within("reference", [&] { Validate(reference.profile, problems); });
+  problems.ThrowIfAny();
   std::vector<Metric> metrics = Differences(heap.profile, reference.profile, options);
   std::vector<Named> own = Describe(heap, options);
   std::vector<Named> other = Describe(reference, options);
@@ -243,9 +265,10 @@ std::vector<Metric> CompareProfiles(const HeapImages& heap, const HeapImages& re
 }
 
 std::vector<std::string> MetricNames() {
-  const HeapImages empty{.profile = {.image = {.width = 1, .height = 1, .pixels = {255}},
-                                     .frame = {.width = 1, .height = 1, .pixel_size = 1}},
-                         .parts = {}};
+  const Frame frame{.width = 1, .height = 1, .pixel_size = 1e-3, .baseline = 1};
+  const HeapImages empty{
+      .profile = {.image = {.width = 1, .height = 1, .pixels = {255}}, .frame = frame},
+      .parts = {}};
   std::vector<std::string> names;
   for (const Metric& metric : CompareProfiles(empty, empty)) names.push_back(metric.name);
   return names;
@@ -255,7 +278,8 @@ const Metric& FindMetric(const std::vector<Metric>& metrics, const std::string& 
   for (const Metric& metric : metrics) {
     if (metric.name == name) return metric;
   }
-  throw std::out_of_range("no metric " + name);
+  throw base::ConfigError("\"" + name + "\" is not the name of one of the " +
+                          std::to_string(metrics.size()) + " metrics");
 }
 
 }  // namespace talus::imaging

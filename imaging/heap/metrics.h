@@ -67,7 +67,8 @@ struct Metric {
   Measured reference;  // the same of the AEHP (0 for a difference, 1 for iou)
 };
 
-// All metrics, always the same names in the same order. Throws ConfigError when the frames differ.
+// All metrics, always the same names in the same order. Throws ConfigError when the frames differ
+// or are not valid, or an image is not of its frame's size.
 std::vector<Metric> CompareProfiles(const HeapImages& heap, const HeapImages& reference,
                                     const MetricOptions& options = {});
 
@@ -77,11 +78,12 @@ std::vector<Metric> DescribeProfile(const HeapImages& heap, const MetricOptions&
 // The metric's names, to check a spec's objective against.
 std::vector<std::string> MetricNames();
 
-// Throws std::out_of_range when there is none.
+// Throws ConfigError when there is none.
 const Metric& FindMetric(const std::vector<Metric>& metrics, const std::string& name);
 
-double Nebp(const GrayImage& image);                    // [px]
-double Sad(const GrayImage& a, const GrayImage& b);     // [px], of images of one size
+double Nebp(const GrayImage& image);  // [px]
+// [px]; throws ConfigError when the images differ in size.
+double Sad(const GrayImage& a, const GrayImage& b);
 void RequireSameFrame(const Frame& a, const Frame& b);  // throws ConfigError
 
 }  // namespace talus::imaging

@@ -126,6 +126,35 @@ TEST(Metrics, OtherFramesCannotBeCompared) {
   EXPECT_THROW(CompareProfiles(heap, other), base::ConfigError);
 }
 
+TEST(Metrics, ImagesOfOtherSizesCannotBeCompared) {
+  const GrayImage two{.width = 2, .height = 1, .pixels = {0, 255}};
+  const GrayImage three{.width = 3, .height = 1, .pixels = {0, 255, 255}};
+  EXPECT_THROW(Sad(three, two), base::ConfigError);
+  EXPECT_THROW(Sad(two, three), base::ConfigError);
+}
+
+TEST(Metrics, AFrameThatIsNotFilledInIsRefused) {
+  const auto error_of = [](const HeapImages& heap) {
+    try {
+      CompareProfiles(heap, heap);
+    } catch (const base::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  HeapImages heap{.profile = Drawn(Cone), .parts = {}};
+  heap.profile.frame.pixel_size = 0;
+  EXPECT_NE(error_of(heap).find("heap.frame.pixel_size: is 0"), std::string::npos);
+  heap.profile.frame = SmallFrame();
+  heap.profile.image.pixels.pop_back();
+  EXPECT_NE(error_of(heap).find("heap.image: has 200 x 100 px"), std::string::npos);
+}
+
+TEST(Metrics, ANameThatIsNoneIsAnError) {
+  const auto metrics = DescribeProfile({.profile = Drawn(Cone), .parts = {}});
+  EXPECT_THROW(FindMetric(metrics, "angle"), base::ConfigError);
+}
+
 // ANHP − AEHP: white without powder in the simulation where the experiment has it is +255, blue.
 TEST(DifferenceMap, BlueWhereTheSimulationHasTooLittle) {
   const Profile experiment = Drawn(Cone);

@@ -23,7 +23,7 @@ engine::Filling FillDensely(const Case& c, const engine::FillRegion& region, std
                                     .max_sweeps = c.rules.fill_max_sweeps,
                                     .seed = c.seed};
   engine::Filling filling = engine::Fill(radii, request);
-  if (filling.max_overlap > engine::kMaxOverlap) {
+  if (filling.max_overlap > engine::kMaxOverlapAtStart) {
     throw base::ConfigError("rules.fill_max_sweeps: is " + std::to_string(request.max_sweeps) +
                             ", after which grains overlap by " +
                             base::ShortNumber(filling.max_overlap) +

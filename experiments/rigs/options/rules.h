@@ -61,7 +61,7 @@ struct PhaseRules {
           {.doc = "grains this many largest diameters below the plate leave the scene, > 0"});
   }
   void Validate(base::Problems& problems) const {
-    problems.Require(fill_max_overlap > 0 && fill_max_overlap <= engine::kMaxOverlap,
+    problems.Require(fill_max_overlap > 0 && fill_max_overlap <= engine::kMaxOverlapAtStart,
                      "fill_max_overlap", fill_max_overlap, "must be in (0, 0.25]");
     RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
     RequirePositive(problems, "leave_depth", leave_depth);

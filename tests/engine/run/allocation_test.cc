@@ -1,4 +1,5 @@
-// A step allocates nothing: this program counts what asks for memory.
+// A step allocates nothing, and no memory left is an error: this program counts what asks for
+// memory.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -6,14 +7,18 @@
 #include <new>
 #include <ostream>
 
+#include "base/error.h"
 #include "tests/engine/cloud.h"
 
 namespace {
 
 std::atomic<std::int64_t> num_allocations = 0;
+std::atomic<bool> others_get_none = false;
+thread_local bool is_main = false;
 
 void* Count(std::size_t size, std::size_t alignment) {
   ++num_allocations;
+  if (others_get_none && !is_main) throw std::bad_alloc();
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   if (void* memory = std::aligned_alloc(alignment, whole)) return memory;
   throw std::bad_alloc();
@@ -98,6 +103,43 @@ TEST_P(Allocation, NoneInAStepNorInARebuildOnceTheListsHaveRoom) {
 // On a busy machine two threads wait for each other a long time.
 INSTANTIATE_TEST_SUITE_P(Threads, Allocation,
                          ::testing::Values(Threading{1, 2000}, Threading{2, 300}));
+
+// While it lives, only the thread that made it gets memory.
+class NoMemoryForOthers {
+ public:
+  NoMemoryForOthers() {
+    is_main = true;
+    others_get_none = true;
+  }
+  ~NoMemoryForOthers() { others_get_none = false; }
+};
+
+Scene TwoThreads() {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.particles = testing::Cloud({.per_side = 13});  // two chunks and more
+  scene.num_threads = 2;
+  return scene;
+}
+
+TEST(OutOfMemory, OfAnotherThreadEndsTheCallNotTheProgram) {
+  const NoMemoryForOthers none;
+  EXPECT_THROW(Simulation simulation(TwoThreads()), std::bad_alloc);
+}
+
+TEST(OutOfMemory, LeavesASimulationThatSaysItCannotBeUsed) {
+  Simulation simulation(TwoThreads());
+  std::vector<Particle> more = testing::Cloud({.per_side = 18});  // beyond the room of the lists
+  for (Particle& p : more) {
+    p.id += simulation.num_particles();
+    p.position.x += 1;
+  }
+  {
+    const NoMemoryForOthers none;
+    EXPECT_THROW(simulation.Add(more), std::bad_alloc);
+  }
+  EXPECT_THROW(simulation.Advance(1), base::Error);
+  EXPECT_THROW(simulation.Particles(), base::Error);
+}
 
 }  // namespace
 }  // namespace talus::engine

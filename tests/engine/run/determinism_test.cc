@@ -150,6 +150,12 @@ TEST(Checkpoint, ARestartedRunEndsWithTheSameBits) {
   EXPECT_GT(straight.Statistics().num_rebuilds, 3);
 }
 
+TEST(Checkpoint, IsRestoredWithOneThreadAtLeast) {
+  const std::string saved = Simulation(Busy(2)).Checkpoint();
+  EXPECT_THROW(Simulation::Restore(saved, 0), base::ConfigError);
+  EXPECT_THROW(Simulation::Restore(saved, -1), base::ConfigError);
+}
+
 std::string RestoreError(const std::string& bytes) {
   try {
     Simulation::Restore(bytes);

@@ -6,8 +6,10 @@
 #include <set>
 
 #include "engine/kernel/dispatch.h"
+#include "engine/neighbor/contact_list.h"
 #include "engine/neighbor/grid.h"
 #include "engine/neighbor/pair_search.h"
+#include "engine/neighbor/sphere_index.h"
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
@@ -163,7 +165,7 @@ TEST(ContactList, MissesNothingWhenSpheresMoveFast) {
 
 // Spheres at random, most of them small: radii from 1 to `ratio` mm with density r⁻³, as in a
 // powder with much fine grain.
-ParticleStore SpheresUpTo(double ratio) {
+std::vector<Particle> SpheresUpTo(double ratio) {
   std::vector<Particle> spheres;
   for (int i = 0; i < 1200; ++i) {
     base::Random random(3, base::Stream("sizes"), i);
@@ -172,9 +174,7 @@ ParticleStore SpheresUpTo(double ratio) {
     const auto any = [&] { return random.Uniform(0, 0.06); };
     spheres.push_back({.id = i, .radius = radius, .position = {any(), any(), any()}});
   }
-  ParticleStore store;
-  store.Assign(spheres, std::vector<Material>{testing::Glass()});
-  return store;
+  return spheres;
 }
 
 // Each once, by the one that comes first. From a ratio of about six on, large ones are looked up
@@ -184,7 +184,8 @@ TEST(PairSearch, FindsEveryPairOnceWhateverTheSizes) {
   for (const double ratio : {1.0, 3.0, 5.0, 10.0, 30.0}) {
     for (const KernelTable* kernels : AvailableKernels()) {
       SCOPED_TRACE(::testing::Message() << ratio << ", " << kernels->name);
-      ParticleStore store = SpheresUpTo(ratio);
+      ParticleStore store;
+      store.Assign(SpheresUpTo(ratio), std::vector<Material>{testing::Glass()});
       std::vector<std::int32_t> all(store.num);
       std::iota(all.begin(), all.end(), 0);
       PairSearch search;
@@ -209,6 +210,64 @@ TEST(PairSearch, FindsEveryPairOnceWhateverTheSizes) {
       EXPECT_GT(near.size(), 20u);
     }
   }
+}
+
+TEST(SphereIndex, FindsEveryPairWhateverTheSizes) {
+  for (const double ratio : {1.0, 3.0, 30.0}) {
+    SCOPED_TRACE(ratio);
+    const std::vector<Particle> spheres = SpheresUpTo(ratio);
+    const auto touch = [&](std::size_t i, std::size_t j) {
+      return base::Norm(spheres[i].position - spheres[j].position) <
+             spheres[i].radius + spheres[j].radius;
+    };
+    const SphereIndex index(spheres);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      std::vector<std::size_t> found, expected;
+      index.VisitNear(spheres[i].position, spheres[i].radius, [&](std::int32_t j) {
+        if (touch(i, j)) found.push_back(j);
+      });
+      for (std::size_t j = 0; j < spheres.size(); ++j) {
+        if (touch(i, j)) expected.push_back(j);
+      }
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found, expected) << i;
+    }
+  }
+}
+
+// 27 000 grains and one sphere that is 24 times larger: with one grid a grain would look at half of
+// the others, as at the start of a scene it once did.
+TEST(SphereIndex, LooksAtFewWhereOneSphereIsLarge) {
+  std::vector<Particle> spheres = testing::Cloud({.per_side = 30});
+  spheres.push_back({.id = -1, .radius = 24e-3, .position = {0.03, 0.03, 0.1}});
+  const SphereIndex index(spheres);
+  std::size_t num_looks = 0;
+  for (const Particle& p : spheres) {
+    index.VisitNear(p.position, p.radius, [&](std::int32_t) { ++num_looks; });
+  }
+  EXPECT_LT(num_looks, 60 * spheres.size());
+}
+
+// Of 28 chunks the first 14 hold 640 pairs each, a quarter of which touch, and the others 16.
+TEST(ContactList, SharesAreByWorkFromTheFirstStepAfterARestart) {
+  ContactList list;
+  list.chunks().resize(28);
+  for (std::int64_t c = 0; c < 28; ++c) {
+    Chunk& chunk = list.chunks()[c];
+    chunk.begin = kBlock * c;
+    chunk.end = chunk.window_end = kBlock * (c + 1);
+    const std::int64_t num_blocks = c < 14 ? 40 : 1;
+    chunk.blocks.resize(num_blocks);
+    chunk.touching.assign(num_blocks, 0x1111);
+    chunk.runs = {{.first_block = 0, .num_pairs = kBlock * num_blocks, .constants = 0, .wall = -1}};
+  }
+  list.Restored({.pairs = 5, .touching = 3});
+  EXPECT_EQ(list.counts().pairs, 5);
+  EXPECT_EQ(list.chunks()[0].counts.pairs, 640);
+  EXPECT_EQ(list.chunks()[0].counts.touching, 160);
+  Team team(2);
+  list.PrepareForces(team);
+  EXPECT_EQ(list.shares().Of(0).end, 8);
 }
 
 // One sphere that is small and fast among large ones at rest; sizes 1 : 8.

@@ -2,12 +2,17 @@
 #include "engine/threads/team.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <fstream>
+#include <iostream>
 #include <numeric>
-#include <random>
 #include <vector>
 
+#include "base/error.h"
+#include "base/random.h"
 #include "engine/threads/work_shares.h"
 
 namespace talus::engine {
@@ -73,27 +78,58 @@ TEST_P(TeamOf, SharesFollowEachOtherAndDifferByOneAtMost) {
   }
 }
 
-// No share is further from an equal part than half a chunk at each of its ends.
-TEST(WorkShares, FollowEachOtherAndHoldAboutAsMuchWork) {
-  std::mt19937 random(1);
-  std::uniform_int_distribution<std::int64_t> any(1, 100);
+// Ends the process, with 3 when the team says what it lacks.
+[[noreturn]] void StartWithRoomForFewStacks(int size) {
+  std::int64_t num_pages = 0;
+  std::ifstream("/proc/self/statm") >> num_pages;
+  const auto in_use = static_cast<rlim_t>(num_pages * ::sysconf(_SC_PAGESIZE));
+  const rlimit limit{in_use + (64u << 20), in_use + (64u << 20)};
+  ::setrlimit(RLIMIT_AS, &limit);
+  try {
+    const Team team(size);
+  } catch (const base::Error& error) {
+    std::cerr << error.what() << std::endl;
+    std::_Exit(3);
+  }
+  std::_Exit(0);
+}
+
+TEST(TeamDeathTest, FewerThreadsThanAskedForAreAnErrorThatNamesThem) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more memory than the limit";
+#endif
+  EXPECT_EXIT(StartWithRoomForFewStacks(1000), ::testing::ExitedWithCode(3),
+              "gives [0-9]+ of 1000 threads .*take fewer threads");
+}
+
+// A chunk belongs to the member in whose part of the work its middle lies. The places are rounded
+// to half a unit.
+TEST(WorkShares, FollowEachOtherAndEachCutIsWithinHalfAChunkOfItsPlace) {
   WorkShares shares;
+  EXPECT_EQ(shares.num_members(), 0);
   for (const int num_chunks : {0, 1, 5, 28, 128}) {
     std::vector<std::int64_t> work(num_chunks);
-    for (std::int64_t& one : work) one = any(random);
-    const std::int64_t total = std::accumulate(work.begin(), work.end(), std::int64_t{0});
+    for (int c = 0; c < num_chunks; ++c) {
+      work[c] = 1 + static_cast<std::int64_t>(base::Random(1, base::Stream("work"), c).Below(100));
+    }
+    const double total = std::accumulate(work.begin(), work.end(), 0.0);
     for (const int num_members : {1, 2, 3, 16}) {
       shares.Cut(work, num_members);
-      std::int64_t end = 0;
-      for (int member = 0; member < num_members; ++member) {
-        const Share share = shares.Of(member);
-        EXPECT_EQ(share.begin, end);
-        end = share.end;
-        const auto held =
-            std::accumulate(work.begin() + share.begin, work.begin() + share.end, 0.0);
-        EXPECT_NEAR(held, static_cast<double>(total) / num_members, 100);
+      EXPECT_EQ(shares.num_members(), num_members);
+      EXPECT_EQ(shares.Of(0).begin, 0);
+      EXPECT_EQ(shares.Of(num_members - 1).end, num_chunks);
+      for (int member = 1; member < num_members; ++member) {
+        const std::int64_t cut = shares.Of(member).begin;
+        EXPECT_EQ(cut, shares.Of(member - 1).end);
+        const double off =
+            std::accumulate(work.begin(), work.begin() + cut, 0.0) - total * member / num_members;
+        if (cut > 0) {
+          EXPECT_LE(off, 0.5 * static_cast<double>(work[cut - 1]));
+        }
+        if (cut < num_chunks) {
+          EXPECT_LE(-off, 0.5 * static_cast<double>(work[cut]) + 0.5);
+        }
       }
-      EXPECT_EQ(end, num_chunks);
     }
   }
 }

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string>
 
+#include "base/error.h"
 #include "engine/scene/size_distribution.h"
 
 namespace talus::engine {
@@ -106,6 +109,31 @@ TEST(Filling, ARegionThatIsTooSmallEndsAtTheCapAndSaysSo) {
   const Filling filling = Fill(load.radii, load.request);
   EXPECT_EQ(filling.num_sweeps, 50);
   EXPECT_GT(filling.max_overlap, load.request.max_overlap);
+}
+
+TEST(Filling, WhatCannotBeIsNamed) {
+  const auto error_of = [](const std::function<void(Load&)>& change, Load load) {
+    change(load);
+    try {
+      Fill(load.radii, load.request);
+    } catch (const base::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto is_refused = [&](const std::string& key, const std::function<void(Load&)>& change) {
+    EXPECT_EQ(error_of(change, Mono(10)).find(key), 0u) << key << " " << error_of(change, Mono(10));
+  };
+  is_refused("solid_fraction", [](Load& load) { load.request.solid_fraction = 0; });
+  is_refused("solid_fraction", [](Load& load) { load.request.solid_fraction = 0.7; });
+  is_refused("max_overlap", [](Load& load) { load.request.max_overlap = NAN; });
+  is_refused("max_sweeps", [](Load& load) { load.request.max_sweeps = 0; });
+  is_refused("region.diameter", [](Load& load) { load.request.region.diameter = {}; });
+  is_refused("radii[3]", [](Load& load) { load.radii[3] = 0; });
+  is_refused("radii[4]", [](Load& load) { load.radii[4] = NAN; });
+  is_refused("radii[5]", [](Load& load) { load.radii[5] = 5.1e-3; });
+  is_refused("radii[0]", [](Load& load) { load.request.region.height = 0.9e-3; });
+  EXPECT_EQ(error_of([](Load& load) { load.radii[5] = 5e-3; }, Mono(10)), "");
 }
 
 TEST(Shuffled, KeepsTheValuesAndChangesTheirOrder) {
