@@ -122,6 +122,25 @@ void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root
   change.words = "its templates lie in " + moved.string() + " now";
 }
 
+// What the campaign was given after it began, and the spec's file cannot know of: further tests,
+// and a budget, unless the file's own has been changed since.
+void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& written,
+                      const CampaignSpec& going, CampaignSpec& read) {
+  const auto budget = [](const nlohmann::json& spec) {
+    return spec.value("budget", nlohmann::json());
+  };
+  if (budget(begun_with) == budget(written)) read.budget = going.budget;
+  if (!going.experiments) return;
+  const std::vector<ExperimentSpec>& all = *going.experiments;
+  const std::size_t num_begun =
+      begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
+  if (num_begun == all.size()) return;
+  std::vector<ExperimentSpec> kept = ExperimentsOf(read);
+  kept.insert(kept.end(), all.begin() + static_cast<std::ptrdiff_t>(num_begun), all.end());
+  read.experiments = std::move(kept);
+  read.experiment.reset();
+}
+
 // The spec as it is to be from now on; says what has changed where that is not allowed.
 SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path& root,
                           const ResumeOptions& options) {
@@ -135,10 +154,13 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path&
     return change;
   }
   const CampaignSpec begun = ParseSpecText(record.spec_json);
-  change.spec = ReadSpecWithPosteriors(base::ReadJsonFile(path), &begun);
+  const base::JsonFile file = base::ReadJsonFile(path);
+  change.spec = ReadSpecWithPosteriors(file, &begun);
   // `calibrate --hold-out` is of the campaign and not in the file.
   if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
   KeepAddedParameters(begun, change.spec);
+  KeepWhatWasGiven(base::ParseJson(record.spec_text, record.spec_path).root, file.root, begun,
+                   change.spec);
   const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   if (!forbidden.empty()) {
     std::string message = path.string() +

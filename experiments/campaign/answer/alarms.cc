@@ -147,7 +147,7 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
     return BracketedSet(names, nearer->values) + ", simulated again, too, " +
            (Misses(answer, *nearer) ? "misses less" : "fits");
   }
-  if (!HasRanges(answer)) return "there are too few simulations for a model";
+  if (!answer.posterior && !HasRanges(answer)) return "there are too few simulations for a model";
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
   if (answer.posterior && IsProvisional(answer.posterior->surrogate_narrowing)) {
     return "its region is still more the surrogate's than the measurements'";

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/files/file.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "tests/experiments/campaign_fixture.h"
@@ -69,6 +70,33 @@ TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
   EXPECT_EQ(result.posterior->experiments[0].name, "heap");
   EXPECT_EQ(result.posterior->experiments[1].name, "fast lift");
   EXPECT_EQ(result.confirmed.at(0).experiments.size(), 2u);
+}
+
+// The spec's file does not know of what the campaign was given since.
+TEST_F(AddExperimentTest, ASpecThatIsChangedLaterLeavesItThere) {
+  const fs::path folder = Ended();
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 0.35});
+  const CampaignSpec added = LoadSpec(folder);
+  const fs::path file =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_path;
+  std::string text = base::ReadFile(file);
+  const auto change = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(file) << text;
+  };
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  change(R"("workers": 1)", R"("workers": 2)");
+  const CampaignSpec with_workers = OpenCampaign(folder, {}, console).spec;
+  ASSERT_EQ(ExperimentsOf(with_workers).size(), 2u);
+  EXPECT_EQ(ExperimentsOf(with_workers)[1].name, "fast lift");
+  EXPECT_EQ(with_workers.workers, 2);
+  EXPECT_EQ(with_workers.budget.core_time, added.budget.core_time);
+  change(R"({"simulations": 16})", R"({"simulations": 40})");
+  const CampaignSpec with_more = OpenCampaign(folder, {}, console).spec;
+  EXPECT_EQ(ExperimentsOf(with_more).size(), 2u);
+  EXPECT_EQ(with_more.budget.simulations, 40);
+  EXPECT_FALSE(with_more.budget.core_time);
 }
 
 // A trial that still runs when the budget is used counts by an estimate; where it takes less, the

@@ -189,8 +189,8 @@ TEST(Alarms, EveryKindHasWordsOfItsOwn) {
     ++of_results;
     texts.insert(AlarmText({.kind = kind}));
   }
-  EXPECT_EQ(of_results, 16);
-  EXPECT_THAT(texts, SizeIs(16));
+  EXPECT_EQ(of_results, 17);
+  EXPECT_THAT(texts, SizeIs(17));
   EXPECT_FALSE(texts.contains(""));
 }
 
