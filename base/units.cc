@@ -21,25 +21,28 @@ struct Unit {
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPerMinute = 2 * std::numbers::pi / 60;  // a turn, in rad/s
 
 constexpr Unit kNoUnits[] = {{"%", 0.01}};
-// In Canonical spelling.
-constexpr Unit kLengths[] = {{"m", 1},          {"dm", 1e-1},       {"cm", 1e-2},
-                             {"mm", 1e-3},      {"um", 1e-6},       {"nm", 1e-9},
+// In Canonical spelling, the SI's first, then what people most often mean: an error names the first
+// few.
+constexpr Unit kLengths[] = {{"m", 1},          {"mm", 1e-3},       {"um", 1e-6},
+                             {"cm", 1e-2},      {"dm", 1e-1},       {"nm", 1e-9},
                              {"micron", 1e-6},  {"microns", 1e-6},  {"in", 25.4e-3},
                              {"inch", 25.4e-3}, {"inches", 25.4e-3}};
 constexpr Unit kMasses[] = {{"kg", 1},  {"g", 1e-3},    {"mg", 1e-6},   {"ug", 1e-9},
                             {"t", 1e3}, {"gram", 1e-3}, {"grams", 1e-3}};
-constexpr Unit kTimes[] = {{"s", 1},    {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9},
-                           {"min", 60}, {"h", 3600},  {"d", 86400}};
+constexpr Unit kTimes[] = {{"s", 1},     {"min", 60},  {"h", 3600}, {"ms", 1e-3},
+                           {"us", 1e-6}, {"ns", 1e-9}, {"d", 86400}};
 constexpr Unit kVelocities[] = {{"m/s", 1},     {"cm/s", 1e-2},        {"mm/s", 1e-3},
                                 {"um/s", 1e-6}, {"mm/min", 1e-3 / 60}, {"m/min", 1.0 / 60}};
 constexpr Unit kAccelerations[] = {{"m/s^2", 1}, {"cm/s^2", 1e-2}, {"g0", 9.80665}};
 constexpr Unit kAngularVelocities[] = {
-    {"rad/s", 1}, {"deg/s", kDegree}, {"°/s", kDegree}, {"rpm", 2 * std::numbers::pi / 60}};
+    {"rad/s", 1}, {"rpm", kPerMinute}, {"1/min", kPerMinute}, {"deg/s", kDegree}, {"°/s", kDegree}};
 constexpr Unit kAngles[] = {{"rad", 1}, {"deg", kDegree}, {"°", kDegree}};
-constexpr Unit kDensities[] = {{"kg/m^3", 1}, {"g/cm^3", 1e3}, {"g/cc", 1e3}, {"g/mL", 1e3},
-                               {"g/ml", 1e3}, {"kg/L", 1e3},   {"kg/l", 1e3}};
+constexpr Unit kDensities[] = {{"kg/m^3", 1}, {"g/cm^3", 1e3}, {"g/mL", 1e3},
+                               {"g/L", 1},    {"g/cc", 1e3},   {"g/ml", 1e3},
+                               {"g/l", 1},    {"kg/L", 1e3},   {"kg/l", 1e3}};
 constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3},    {"MPa", 1e6},    {"GPa", 1e9},
                                {"N/m^2", 1}, {"MN/m^2", 1e6}, {"N/mm^2", 1e6}, {"bar", 1e5}};
 constexpr Unit kSurfaceEnergies[] = {
@@ -99,13 +102,15 @@ std::string Canonical(std::string_view unit) {
   return name;
 }
 
+constexpr std::size_t kUnitsNamed = 4;
+
 [[noreturn]] void Refuse(std::string_view text, Dimension dimension, std::string_view why) {
   std::string message = "\"" + std::string(text) + "\" " + std::string(why) + "; write a number";
   if (dimension != Dimension::kNone) message += " in " + std::string(SiUnit(dimension));
   message += " or a text such as";
   const char* separator = " ";
   for (const Unit& unit :
-       UnitsOf(dimension).first(std::min<std::size_t>(UnitsOf(dimension).size(), 4))) {
+       UnitsOf(dimension).first(std::min(UnitsOf(dimension).size(), kUnitsNamed))) {
     message += separator + ("\"1 " + std::string(unit.name) + "\"");
     separator = ", ";
   }
@@ -179,6 +184,15 @@ void RefuseComma(std::string_view text, std::string_view trimmed, std::string_vi
 
 std::string_view SiUnit(Dimension dimension) {
   return dimension == Dimension::kNone ? std::string_view() : UnitsOf(dimension).front().name;
+}
+
+std::string_view UnitIn(std::string_view text) {
+  const std::string_view trimmed = Trimmed(text);
+  double value = 0;
+  const char* const end = trimmed.data() + trimmed.size();
+  const auto [rest, status] = std::from_chars(trimmed.data(), end, value);
+  if (status == std::errc::invalid_argument) return {};
+  return Trimmed(trimmed.substr(static_cast<std::size_t>(rest - trimmed.data())));
 }
 
 double ParseQuantity(std::string_view text, Dimension dimension) {

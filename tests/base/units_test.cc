@@ -42,6 +42,25 @@ TEST(Units, WrongOnesAreNamedWithThoseThatFit) {
   EXPECT_THAT(ErrorOf("about 3 g", Dimension::kMass), HasSubstr("does not start with a number"));
 }
 
+// Four stand in a message: those that are meant, not the SI's prefixes in order.
+TEST(Units, TheUsualOnesAreNamedFirst) {
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kLength), HasSubstr(R"("1 m", "1 mm", "1 um", "1 cm")"));
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kTime), HasSubstr(R"("1 s", "1 min", "1 h", "1 ms")"));
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kAngularVelocity),
+              HasSubstr(R"("1 rad/s", "1 rpm", "1 1/min", "1 deg/s")"));
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kDensity),
+              HasSubstr(R"("1 kg/m^3", "1 g/cm^3", "1 g/mL", "1 g/L")"));
+  EXPECT_EQ(SiUnit(Dimension::kAngularVelocity), "rad/s");
+}
+
+TEST(Units, AUnitStandsAfterItsNumber) {
+  EXPECT_EQ(UnitIn(" 0.64 g/mL "), "g/mL");
+  EXPECT_EQ(UnitIn("30deg"), "deg");
+  EXPECT_EQ(UnitIn("1e-3"), "");
+  EXPECT_EQ(UnitIn("7 "), "");
+  EXPECT_EQ(UnitIn("mm"), "");
+}
+
 TEST(Units, ACommaInANumberIsNamedWithWhatToWrite) {
   EXPECT_EQ(ErrorOf("1,602 g", Dimension::kMass),
             "\"1,602 g\" has a comma in its number; write \"1.602 g\" with a point, or \"1602 g\" "
@@ -63,6 +82,10 @@ TEST(Units, ReadsWhatPeopleType) {
   EXPECT_DOUBLE_EQ(ParseQuantity("1500 kg/m3", Dimension::kDensity), 1500);
   EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/cm3", Dimension::kDensity), 1500);
   EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/ml", Dimension::kDensity), 1500);
+  EXPECT_DOUBLE_EQ(ParseQuantity("640 g/L", Dimension::kDensity), 640);
+  EXPECT_DOUBLE_EQ(ParseQuantity("640 g/l", Dimension::kDensity), 640);
+  EXPECT_DOUBLE_EQ(ParseQuantity("15 1/min", Dimension::kAngularVelocity),
+                   ParseQuantity("15 rpm", Dimension::kAngularVelocity));
   EXPECT_DOUBLE_EQ(ParseQuantity("80 microns", Dimension::kLength), 80e-6);
   EXPECT_DOUBLE_EQ(ParseQuantity("0.5 inch", Dimension::kLength), 12.7e-3);
   EXPECT_DOUBLE_EQ(ParseQuantity("1.6 grams", Dimension::kMass), 1.6e-3);
