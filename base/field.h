@@ -32,8 +32,9 @@ namespace talus::base {
 
 struct FieldInfo {
   Dimension dimension = Dimension::kNone;
-  bool required = false;  // a file without the key is an error
-  const char* doc = "";   // what it is, its unit and range: shown by editors from the JSON Schema
+  bool required = false;     // a file without the key is an error
+  const char* doc = "";      // what it is, its unit and range: shown by editors from the schema
+  const char* unit_of = "";  // a key beside it, or its own: base/json/json_units.h
 };
 
 // A field whose key is not its own name.

@@ -191,8 +191,10 @@ std::string_view UnitIn(std::string_view text) {
   double value = 0;
   const char* const end = trimmed.data() + trimmed.size();
   const auto [rest, status] = std::from_chars(trimmed.data(), end, value);
-  if (status == std::errc::invalid_argument) return {};
-  return Trimmed(trimmed.substr(static_cast<std::size_t>(rest - trimmed.data())));
+  const std::string_view unit =
+      Trimmed(trimmed.substr(static_cast<std::size_t>(rest - trimmed.data())));
+  const bool is_number = status != std::errc::invalid_argument && !unit.starts_with(',');
+  return is_number ? unit : std::string_view();
 }
 
 double ParseQuantity(std::string_view text, Dimension dimension) {

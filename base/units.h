@@ -27,7 +27,7 @@ enum class Dimension {
 // The SI unit's symbol as it is written in an input: "m", "kg/m^3"; "" for kNone.
 std::string_view SiUnit(Dimension dimension);
 
-// "g/mL" of "0.64 g/mL", as it is typed; "" of a bare number and of what does not start with one.
+// "g/mL" of "0.64 g/mL", as it is typed; "" of a bare number and of what is none.
 std::string_view UnitIn(std::string_view text);
 
 // "45 um" → 4.5e-5. A bare number is taken to be in SI. Throws ConfigError that names the text and

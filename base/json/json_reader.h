@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/field.h"
 #include "base/json/json_file.h"
+#include "base/json/json_units.h"
 #include "base/nearest.h"
 #include "base/problems.h"
 #include "base/text/joined.h"
@@ -43,7 +44,10 @@ class JsonReader {
       if (info.required) context_.problems.AddUnread(key, "is missing");
       return;
     }
-    context_.problems.Within(key, [&] { Read(*found, field, info); });
+    context_.problems.Within(key, [&] {
+      Read(*found, field, info);
+      RequireUnits(object_, *found, info.unit_of, context_.problems);
+    });
   }
 
   // Reports the keys that no call has named. A key that starts with `$` (such as `$schema`) is

@@ -69,6 +69,19 @@ struct Record {
   TALUS_FIELDS(name, elapsed, ending, mass);
 };
 
+struct Measured {
+  double value = 0;
+  double sd = 0;
+  std::vector<double> values;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("value", self.value, {.dimension = Dimension::kDensity});
+    visit("sd", self.sd, {.dimension = Dimension::kDensity, .unit_of = "value"});
+    visit("values", self.values, {.dimension = Dimension::kDensity, .unit_of = "values"});
+  }
+};
+
 // The default breaks the rule, so that a value must be given.
 struct Powder {
   double mass = 0;
@@ -163,6 +176,30 @@ TEST(Json, ValueThatCannotBeReadIsReportedOnce) {
     } catch (const ConfigError& error) {
       EXPECT_THAT(error.what(), Not(HasSubstr("\n"))) << text;
     }
+  }
+}
+
+// A bare number is in SI: 640 ± 0.01 kg/m³ is hardly what was meant.
+TEST(Json, ABareNumberBesideOneWithAUnitIsRefused) {
+  const auto error = [](const char* text) -> std::string {
+    try {
+      LoadOptions<Measured>(ParseJson(text, "spec.json"));
+      return "";
+    } catch (const ConfigError& refused) {
+      return refused.what();
+    }
+  };
+  EXPECT_THAT(error(R"({"value": "0.64 g/mL", "sd": 0.01})"),
+              HasSubstr("sd: is 0.01 without a unit beside one in g/mL; a bare number is in SI: "
+                        "write \"0.01 g/mL\""));
+  EXPECT_THAT(error(R"({"value": "0.64 g/mL", "sd": "0.01"})"), HasSubstr("write \"0.01 g/mL\""));
+  EXPECT_THAT(error(R"({"values": [0.64, "0.65 g/mL"]})"),
+              HasSubstr("values[0]: is 0.64 without a unit"));
+  for (const char* good :
+       {R"({"value": "0.64 g/mL", "sd": "10 g/L"})", R"({"value": 640, "sd": 10})",
+        R"({"value": 640, "sd": "10 g/L"})", R"({"value": "640", "sd": 10})",
+        R"({"value": "0.64 g/mL", "sd": 0})", R"({"values": [640, 650]})", R"({"sd": 10})"}) {
+    EXPECT_EQ(error(good), "") << good;
   }
 }
 

@@ -59,6 +59,7 @@ TEST(Units, AUnitStandsAfterItsNumber) {
   EXPECT_EQ(UnitIn("1e-3"), "");
   EXPECT_EQ(UnitIn("7 "), "");
   EXPECT_EQ(UnitIn("mm"), "");
+  EXPECT_EQ(UnitIn("1,602 g"), "");
 }
 
 TEST(Units, ACommaInANumberIsNamedWithWhatToWrite) {

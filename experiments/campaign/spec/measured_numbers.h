@@ -34,11 +34,14 @@ struct MeasuredNumber {
     visit("value", self.value,
           {.dimension = D, .doc = "what was measured, >= 0; needed without values"});
     visit("sd", self.standard_error,
-          {.dimension = D, .doc = "standard error of the value given, > 0; needed beside it"});
+          {.dimension = D,
+           .doc = "standard error of the value given, > 0; needed beside it",
+           .unit_of = "value"});
     visit("values", self.values,
           {.dimension = D,
            .doc = "in place of value and sd: every measurement, two or more, whose mean and "
-                  "standard error count"});
+                  "standard error count",
+           .unit_of = "values"});
   }
   void Validate(base::Problems& problems) const {
     if (values) return ValidateValues(problems);

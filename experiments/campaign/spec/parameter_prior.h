@@ -27,7 +27,9 @@ struct ParameterPrior {
   static void Visit(Self& self, Visitor&& visit) {
     visit("mean", self.mean, {.dimension = kDimension, .doc = "of a normal prior, with sd"});
     visit("sd", self.sd,
-          {.dimension = kDimension, .doc = "standard deviation of a normal prior, > 0"});
+          {.dimension = kDimension,
+           .doc = "standard deviation of a normal prior, > 0",
+           .unit_of = "mean"});
     visit("median", self.median,
           {.dimension = kDimension, .doc = "of a log-normal prior, with factor, > 0"});
     visit("factor", self.factor,

@@ -1,0 +1,56 @@
+#include "base/json/json_units.h"
+
+#include <string>
+
+#include "base/json/json_text.h"
+#include "base/units.h"
+
+namespace talus::base {
+namespace {
+
+using nlohmann::json;
+
+std::string UnitOfText(const json& value) {
+  return value.is_string() ? std::string(UnitIn(value.get_ref<const std::string&>())) : "";
+}
+
+// Of a text, or of the first in a list that has one; "" where there is none.
+std::string FirstUnit(const json& value) {
+  if (!value.is_array()) return UnitOfText(value);
+  for (const json& entry : value) {
+    if (const std::string unit = UnitOfText(entry); !unit.empty()) return unit;
+  }
+  return "";
+}
+
+// A number, or a text that is one and nothing else; "" of all others, and of 0.
+std::string BareNumber(const json& value) {
+  if (value.is_number()) return value.get<double>() == 0 ? "" : JsonText(value);
+  const json read =
+      value.is_string() ? json::parse(value.get_ref<const std::string&>(), nullptr, false) : json();
+  return read.is_number() && read.get<double>() != 0 ? value.get<std::string>() : "";
+}
+
+void RequireUnit(const json& value, const std::string& unit, std::string_view place,
+                 Problems& problems) {
+  const std::string bare = BareNumber(value);
+  if (bare.empty()) return;
+  problems.AddUnread(place, "is " + bare + " without a unit beside one in " + unit +
+                                "; a bare number is in SI: write \"" + bare + " " + unit + "\"");
+}
+
+}  // namespace
+
+void RequireUnits(const json& object, const json& value, std::string_view unit_of,
+                  Problems& problems) {
+  const auto beside = object.find(std::string(unit_of));
+  if (unit_of.empty() || beside == object.end()) return;
+  const std::string unit = FirstUnit(*beside);
+  if (unit.empty() || unit == "%") return;
+  if (!value.is_array()) return RequireUnit(value, unit, "", problems);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    RequireUnit(value[i], unit, "[" + std::to_string(i) + "]", problems);
+  }
+}
+
+}  // namespace talus::base
