@@ -9,8 +9,8 @@ namespace {
 struct Collector {
   std::vector<ScalarSpec>& scalars;
 
-  template <template <base::Dimension> class Number, base::Dimension D>
-  void operator()(std::string_view key, const std::optional<Number<D>>& number,
+  template <template <base::Dimension, bool> class Number, base::Dimension D, bool kYesNo>
+  void operator()(std::string_view key, const std::optional<Number<D, kYesNo>>& number,
                   base::FieldInfo = {}) {
     if (!number) return;
     const rigs::MetricUnit unit = rigs::MetricUnitOf(D);
@@ -25,7 +25,7 @@ struct Collector {
   }
 };
 
-template <template <base::Dimension> class Number>
+template <template <base::Dimension, bool> class Number>
 std::vector<ScalarSpec> Collect(const NumbersOf<Number>& numbers) {
   std::vector<ScalarSpec> scalars;
   NumbersOf<Number>::Visit(numbers, Collector{scalars});

@@ -16,17 +16,20 @@
 namespace talus::campaign {
 
 // A number with the error of what is given (of the mean, where it is a mean), or the values that
-// were measured, two or more. D is its dimension.
-template <base::Dimension D>
+// were measured, two or more. D is its dimension, kYesNo whether it is seen as 0 or 1.
+template <base::Dimension D, bool kYesNo = false>
 struct MeasuredNumber {
   std::optional<double> value{};                // SI, >= 0
   std::optional<double> standard_error{};       // SI, > 0
   std::optional<std::vector<double>> values{};  // SI, >= 0, in place of the two
 
   double Value() const { return values ? base::SampleOf(*values).mean : value.value_or(0); }
+  // Of a yes or no that was the same each time: that of one, over the root of their number.
   double StandardError() const {
-    return values && values->size() > 1 ? base::SampleOf(*values).StandardError()
-                                        : standard_error.value_or(0);
+    if (!values || values->size() < 2) return standard_error.value_or(0);
+    const double scatter = base::SampleOf(*values).StandardError();
+    const bool is_alike = kYesNo && !(scatter > 0);
+    return is_alike ? rigs::kYesNoError / std::sqrt(static_cast<double>(values->size())) : scatter;
   }
 
   template <class Self, class Visitor>
@@ -71,13 +74,13 @@ struct MeasuredNumber {
     }
     problems.Require(!standard_error, "sd",
                      "stands beside values, whose scatter gives it: give one of the two");
-    problems.Require(values->empty() || base::SampleOf(*values).StandardError() > 0, "values",
+    problems.Require(values->empty() || StandardError() > 0, "values",
                      "are all the same, which no error can be read from: give value and sd");
   }
 };
 
 // The error alone, of a number that would be measured.
-template <base::Dimension D>
+template <base::Dimension D, bool = false>
 struct ExpectedError {
   double standard_error = 0;  // SI, > 0
 
@@ -93,7 +96,7 @@ struct ExpectedError {
 };
 
 // One of each observable (rigs/observables/observable.h), under its key.
-template <template <base::Dimension> class Number>
+template <template <base::Dimension, bool> class Number>
 class NumbersOf {
  public:
   template <rigs::Observable O>
@@ -119,9 +122,13 @@ class NumbersOf {
  private:
   using Indices = std::make_index_sequence<rigs::kObservables.size()>;
 
+  template <std::size_t I>
+  using Optional =
+      std::optional<Number<rigs::kObservables[I].dimension,
+                           rigs::kObservables[I].observable == rigs::Observable::kFlows>>;
+
   template <std::size_t... I>
-  static auto Optionals(std::index_sequence<I...>)
-      -> std::tuple<std::optional<Number<rigs::kObservables[I].dimension>>...>;
+  static auto Optionals(std::index_sequence<I...>) -> std::tuple<Optional<I>...>;
 
   decltype(Optionals(Indices{})) numbers_{};
 };

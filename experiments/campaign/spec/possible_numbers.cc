@@ -25,8 +25,8 @@ struct Checker {
   const std::string& prefix;
   base::Problems& problems;
 
-  template <base::Dimension D>
-  void operator()(std::string_view key, const std::optional<MeasuredNumber<D>>& number,
+  template <base::Dimension D, bool kYesNo>
+  void operator()(std::string_view key, const std::optional<MeasuredNumber<D, kYesNo>>& number,
                   const base::FieldInfo& = {}) {
     if (!number) return;
     const std::string place = prefix + std::string(key) + ".";

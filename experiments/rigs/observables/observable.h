@@ -61,6 +61,10 @@ struct UsualError {
   double absolute = 0;  // angles in degrees, the others in SI
 };
 
+// Of a 0 or 1 that was seen once: the other one is four of them away, which is as good as excluded,
+// and no observation less.
+inline constexpr double kYesNoError = 0.25;
+
 // What a number can be at all [SI]. A range that is predicted for it ends there: no run lies
 // beyond.
 struct Bounds {
@@ -81,6 +85,7 @@ struct ObservableInfo {
   const char* doc = "";    // how it is read
   UsualError usual_error{};
   Bounds bounds{};
+  const char* method = "";  // in three words, where several are of one name
 };
 
 inline constexpr std::array kObservables = [] {
@@ -175,7 +180,7 @@ inline constexpr std::array kObservables = [] {
        Dimension::kNone,
        "Flows",
        "1 where powder runs through the orifice, 0 where an arch stands",
-       {},
+       {.absolute = kYesNoError},
        kShare},
       {O::kReposeAngle1,
        "angle_of_repose_1",
@@ -183,28 +188,32 @@ inline constexpr std::array kObservables = [] {
        "AOR 1",
        "of a round heap's silhouette by method 1 (docs/imaging.md)",
        {.absolute = 1},
-       kInclination},
+       kInclination,
+       "height over foot"},
       {O::kReposeAngle2,
        "angle_of_repose_2",
        Dimension::kAngle,
        "AOR 2",
        "the same by method 2",
        {.absolute = 1},
-       kInclination},
+       kInclination,
+       "line, whole slope"},
       {O::kReposeAngle3,
        "angle_of_repose_3",
        Dimension::kAngle,
        "AOR 3",
        "the same by method 3",
        {.absolute = 1},
-       kInclination},
+       kInclination,
+       "line, lower half"},
       {O::kReposeTriangle,
        "angle_of_repose_triangle",
        Dimension::kAngle,
        "AOR, triangle",
        "of the triangle of the silhouette's area on the plate's diameter",
        {.absolute = 1},
-       kInclination},
+       kInclination,
+       "from its area"},
       {O::kStaticCohesiveIndex, "heap_cohesive_index", Dimension::kNone, "Static cohesive index",
        "how far a round heap's outline is from that triangle, over its area (docs/imaging.md)"},
       {O::kCohesiveIndex, "cohesive_index", Dimension::kLength, "Cohesive index",
