@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -62,19 +61,10 @@ bool IsAsked(const Question& question, const SpecAnswers& answers) {
   return question.asked != Asked::kOfHeap || answers.HasPhotographs();
 }
 
-// What people type has its unit: a bare 10 for a plate is seldom ten metres.
-void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example) {
-  char* end = nullptr;
-  std::strtod(answer.c_str(), &end);
-  const std::string_view unit = end;
-  if (dimension == kNone || unit.find_first_not_of(" \t") != std::string_view::npos) return;
-  throw base::ConfigError("\"" + answer + "\" has no unit; write one, such as \"" + example + "\"");
-}
-
 // Throws ConfigError that says what is wrong with it.
 void Check(const Question& question, const std::string& answer) {
   const double value = base::ParseQuantity(answer, question.dimension);
-  RequireUnit(answer, question.dimension, question.example);
+  campaign::RequireUnit(answer, question.dimension, question.example);
   const std::string is = "\"" + answer + "\" is " + base::ShortNumber(value, 6) + ", ";
   if (!(value > 0)) throw base::ConfigError(is + "must be positive");
   if (question.flag == std::string_view("--restitution") && value > 1) {
@@ -130,21 +120,12 @@ std::string WordsOf(const campaign::TestQuestion& question) {
          "; Enter: not measured)";
 }
 
-// An answer with the unit that the bench has, not the SI's: nobody reads 28 rad.
-std::string ExampleOf(const campaign::TestQuestion& question) {
-  if (!question.usual.empty()) return question.usual;
-  if (question.dimension == base::Dimension::kAngle) return "28 deg";
-  if (question.dimension == base::Dimension::kMass) return "1.5 g";
-  if (question.dimension == base::Dimension::kLength) return "12 mm";
-  if (question.dimension == base::Dimension::kMassRate) return "3 g/s";
-  if (question.dimension == base::Dimension::kDensity) return "1480 kg/m^3";
-  return "1 " + std::string(base::SiUnit(question.dimension));
-}
-
 std::string AskOf(const campaign::TestQuestion& question) {
   return AskUntil(WordsOf(question), "", true, [&](const std::string& answer) {
     campaign::CheckAnswer(question, answer);
-    RequireUnit(answer, question.dimension, ExampleOf(question));
+    const bool is_number = question.part == campaign::TestPart::kNumber;
+    campaign::RequireUnit(is_number ? campaign::SplitNumber(question, answer).value : answer,
+                          question.dimension, campaign::ExampleOf(question));
   });
 }
 

@@ -329,12 +329,24 @@ class Progress(unittest.TestCase):
                  "spreading:mass=50mg,spreader=comb,teeth=2,width=8mm,gap=4mm,length=20mm,packing_fraction=0.4": '"teeth": 2',
                  "drum:angle=30deg,fill=0.3,start_turns=0.25,camera.frames=20,camera.interval=10ms":
                  '"camera": {"frames": 20, "interval": "10ms"}',
-                 "funnel_heap:follows=true,height=4mm,angle_of_repose_3=30deg": '"follows": true'}
+                 "funnel_heap:follows=true,rig_height=4mm,angle_of_repose_3=30deg": '"follows": true',
+                 "orifice_flow:flows=1": '"flows": {"value": "1", "sd": "0.25"}',
+                 "orifice_flow:flows=1,flows=1,flows=1": '"flows": {"values": ["1", "1", "1"]}'}
         for test, entry in tests.items():
             self.assertIn(entry, self.started("--test", test), test)
-        # Of two keys of a name it is the funnel's, not its heap's.
-        text = self.started("--test", "funnel_heap:height=40mm,angle_of_repose_3=30deg")
-        self.assertEqual(text.count('"height"'), 1)
+
+    # A funnel and its heap both have a height; of the two the funnel's was taken without a word.
+    def test_init_tells_the_height_of_a_funnel_from_its_heaps(self):
+        text = self.started("--test", "funnel_heap:rig_height=40mm,measured_height=9mm±1mm")
+        self.assertIn('"height": "40mm"', text.split('"rig"')[1].split("}")[0])
+        self.assertIn('"height": {"value": "9mm", "sd": "1mm"}', text)
+
+    # A unit that the value or its error has is that of both.
+    def test_init_takes_the_unit_of_a_value_for_its_error(self):
+        for answer in ("1.48g/mL±0.01", "1.48±0.01g/mL", "1.48g/mL ± 0.01g/mL", "1.48 +- 0.01 g/mL"):
+            text = self.started("--test", f"tapped_density:tapped_density={answer}")
+            entry = json.loads(re.search(r'"tapped_density": ({"value".*?})', text)[1])
+            self.assertEqual([word.replace(" ", "") for word in entry.values()], ["1.48g/mL", "0.01g/mL"], answer)
 
     def test_init_fills_and_names_each_test_as_it_must_be(self):
         text = self.started("--cohesive", "--test", "drum:angle=30deg", "--test", "drum:angle=33deg,speed=20rpm",

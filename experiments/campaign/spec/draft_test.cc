@@ -6,14 +6,18 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "base/nearest.h"
 #include "base/text/joined.h"
 #include "base/trimmed.h"
 
 namespace talus::campaign {
 namespace {
 
+// "…, angle_of_repose_1 (height over foot), …"
 std::string Listed(const std::vector<TestQuestion>& questions) {
-  return base::Joined(questions, ", ", &TestQuestion::key);
+  return base::Joined(questions, ", ", [](const TestQuestion& question) {
+    return question.key + (question.method.empty() ? "" : " (" + question.method + ")");
+  });
 }
 
 std::string FlagOf(const DraftTest& test) {
@@ -68,7 +72,8 @@ std::string OptionsText(const DraftTest& test, const std::vector<TestQuestion>& 
     const std::string value = OptionValue(question, test);
     if (value.empty()) continue;
     const std::string group = GroupOf(question.key);
-    const std::string key = group.empty() ? question.key : question.key.substr(group.size() + 1);
+    const std::string key =
+        group.empty() ? question.KeyInSpec() : question.key.substr(group.size() + 1);
     const std::string entry = InQuotes(key) + ": " + value;
     if (group.empty()) {
       options.push_back(entry);
@@ -86,7 +91,7 @@ std::string OptionsText(const DraftTest& test, const std::vector<TestQuestion>& 
 std::string NumberText(const TestQuestion& question, const std::vector<std::string>& given) {
   if (given.size() == 1) {
     const MeasuredText measured = SplitNumber(question, given.front());
-    return InQuotes(question.key) + ": {\"value\": " + InQuotes(measured.value) +
+    return InQuotes(question.KeyInSpec()) + ": {\"value\": " + InQuotes(measured.value) +
            ", \"sd\": " + InQuotes(measured.error) + "}";
   }
   for (const std::string& one : given) {
@@ -97,7 +102,8 @@ std::string NumberText(const TestQuestion& question, const std::vector<std::stri
     }
     base::ParseQuantity(one, question.dimension);
   }
-  return InQuotes(question.key) + ": {\"values\": [" + base::Joined(given, ", ", InQuotes) + "]}";
+  return InQuotes(question.KeyInSpec()) + ": {\"values\": [" + base::Joined(given, ", ", InQuotes) +
+         "]}";
 }
 
 // Lines after a test's keys; each comma stands before its line's comment.
@@ -136,6 +142,33 @@ std::string FillingText(rigs::RigKind kind, bool pours) {
   return "";
 }
 
+// What stands there in place of "diameter=12 mm". Throws ConfigError that says so.
+[[noreturn]] void RefuseKey(const std::string& part, const std::string& key, const DraftTest& test,
+                            const std::vector<TestQuestion>& questions) {
+  std::vector<std::string> keys;
+  std::string both;
+  for (const TestQuestion& question : questions) {
+    keys.push_back(question.key);
+    if (question.spec_key != key) continue;
+    both += (both.empty() ? "" : " or ") + question.key + "=… (" + question.words + ")";
+  }
+  if (!both.empty())
+    throw base::ConfigError(FlagOf(test) + ": " + key + " is of two things: write " + both);
+  throw base::ConfigError("--test: \"" + std::string(base::Trimmed(part)) +
+                          "\" is no KEY=VALUE of " + std::string(base::NameOf(test.kind)) +
+                          base::DidYouMean(key, keys) + "; its keys are " + Listed(questions));
+}
+
+// That a flag's answer is a quantity. Options have their unit, as on a terminal: 5 for a drum is
+// seldom 5 rad/s. Numbers beyond what can be are found out once all is read.
+void CheckQuantity(const TestQuestion& question, const std::string& answer) {
+  const bool is_number = question.part == TestPart::kNumber;
+  const bool has_quantity = is_number || question.dimension != base::Dimension::kNone;
+  if (!has_quantity) return;
+  const double value = base::ParseQuantity(MeanOf(answer), question.dimension);
+  if (!is_number && value != 0) RequireUnit(answer, question.dimension, ExampleOf(question));
+}
+
 // "diameter=12 mm" of a test, its key being one of the rig's and given once.
 std::pair<std::string, std::string> ParseAnswer(const std::string& part, const DraftTest& test,
                                                 const std::vector<TestQuestion>& questions) {
@@ -148,9 +181,7 @@ std::pair<std::string, std::string> ParseAnswer(const std::string& part, const D
                             "with a point, and a key before each number");
   }
   if (equals == std::string::npos || question == questions.end()) {
-    throw base::ConfigError("--test: \"" + std::string(base::Trimmed(part)) +
-                            "\" is no KEY=VALUE of " + std::string(base::NameOf(test.kind)) +
-                            "; its keys are " + Listed(questions));
+    RefuseKey(part, key, test, questions);
   }
   if (!question->is_list && !test.Answer(key).empty()) {
     throw base::ConfigError(FlagOf(test) + ": " + key +
@@ -158,12 +189,10 @@ std::pair<std::string, std::string> ParseAnswer(const std::string& part, const D
                             "test");
   }
   const std::string answer(base::Trimmed(part.substr(equals + 1)));
-  if (question->part == TestPart::kMass || question->part == TestPart::kNumber) {
-    try {
-      base::ParseQuantity(MeanOf(answer), question->dimension);
-    } catch (const base::ConfigError& error) {
-      throw base::ConfigError(FlagOf(test) + ": " + key + ": " + error.what());
-    }
+  try {
+    CheckQuantity(*question, answer);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(FlagOf(test) + ": " + key + ": " + error.what());
   }
   return {key, answer};
 }

@@ -104,6 +104,23 @@ bool IsAsked(rigs::RigKind kind, const rigs::RigObservable& measured) {
                             measured.observable == rigs::Observable::kReposeTriangle);
 }
 
+// A spec has them at two places; a flag has one list of keys.
+void TellApart(std::vector<TestQuestion>& options, TestQuestion& number) {
+  const auto option = std::ranges::find(options, number.key, &TestQuestion::key);
+  if (option == options.end()) return;
+  option->spec_key = number.spec_key = number.key;
+  option->key = "rig_" + number.key;
+  number.key = "measured_" + number.key;
+}
+
+// "0.64±0.01 g/mL" and "0.64 g/mL±0.01": nobody means an error in another unit.
+void ShareUnit(MeasuredText& measured) {
+  const std::string of_value(base::UnitIn(measured.value));
+  const std::string of_error(base::UnitIn(measured.error));
+  if (of_value.empty() && !of_error.empty()) measured.value += " " + of_error;
+  if (of_error.empty() && !of_value.empty()) measured.error += " " + of_value;
+}
+
 constexpr std::string_view kErrorSigns[] = {"±", "+-"};
 
 }  // namespace
@@ -121,18 +138,46 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
   DropCamera(kind, questions);
   for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
     const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
-    // A funnel's height is an option, that of its heap a number: a spec tells them apart.
-    const std::string key = info.key;
-    if (std::ranges::find(questions, key, &TestQuestion::key) != questions.end()) continue;
-    questions.push_back({.key = info.key,
-                         .words = std::string(info.title) + ", " + info.doc,
-                         .part = TestPart::kNumber,
-                         .dimension = info.dimension,
-                         .usual_error = UsualError(info),
-                         .is_asked = IsAsked(kind, measured),
-                         .is_list = true});
+    TestQuestion number{.key = info.key,
+                        .words = std::string(info.title) + ", " + info.doc,
+                        .part = TestPart::kNumber,
+                        .dimension = info.dimension,
+                        .usual_error = UsualError(info),
+                        .is_asked = IsAsked(kind, measured),
+                        .is_list = true,
+                        .method = info.method};
+    TellApart(questions, number);
+    questions.push_back(std::move(number));
   }
   return questions;
+}
+
+// Not in the SI's units: nobody reads 28 rad.
+std::string ExampleOf(const TestQuestion& question) {
+  if (!question.usual.empty()) return question.usual;
+  switch (question.dimension) {
+    case base::Dimension::kAngle:
+      return "28 deg";
+    case base::Dimension::kMass:
+      return "1.5 g";
+    case base::Dimension::kLength:
+      return "12 mm";
+    case base::Dimension::kMassRate:
+      return "3 g/s";
+    case base::Dimension::kDensity:
+      return "1480 kg/m^3";
+    case base::Dimension::kPressure:
+      return "1 kPa";
+    case base::Dimension::kAngularVelocity:
+      return "10 rpm";
+    default:
+      return "1 " + std::string(base::SiUnit(question.dimension));
+  }
+}
+
+void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example) {
+  if (dimension == base::Dimension::kNone || !base::UnitIn(answer).empty()) return;
+  throw base::ConfigError("\"" + answer + "\" has no unit; write one, such as \"" + example + "\"");
 }
 
 std::string MeanOf(const std::string& text) {
@@ -150,8 +195,10 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
   for (const std::string_view sign : kErrorSigns) {
     const std::size_t at = text.find(sign);
     if (at == std::string::npos) continue;
-    const MeasuredText measured{std::string(base::Trimmed(text.substr(0, at))),
-                                std::string(base::Trimmed(text.substr(at + sign.size())))};
+    MeasuredText measured{std::string(base::Trimmed(text.substr(0, at))),
+                          std::string(base::Trimmed(text.substr(at + sign.size())))};
+    // A share is a number with % and without.
+    if (question.dimension != base::Dimension::kNone) ShareUnit(measured);
     for (const std::string& part : {measured.value, measured.error}) {
       try {
         base::ParseQuantity(part, question.dimension);

@@ -18,7 +18,7 @@ enum class TestPart {
 };
 
 struct TestQuestion {
-  std::string key;    // in the spec: "diameter", "taps.count", "tapped_density"
+  std::string key;    // "diameter", "taps.count", "tapped_density"
   std::string words;  // what it is
   TestPart part = TestPart::kOption;
   base::Dimension dimension = base::Dimension::kNone;
@@ -26,12 +26,25 @@ struct TestQuestion {
   std::string usual_error{};  // of a number, as the bench states it: "0.5 %", "1 deg"
   bool is_asked = false;      // on a terminal, where few questions are answered best
   bool is_list = false;       // several answers are a list
+  std::string spec_key{};     // in the spec, where it is another than `key`
+  std::string method{};       // of a number, in three words; empty where its name says it
+
+  const std::string& KeyInSpec() const { return spec_key.empty() ? key : spec_key; }
 };
 
-// All of a rig's: name, filling and what it is made with, then what it measures.
+// All of a rig's: name, filling and what it is made with, then what it measures. Where an option
+// and a number have one name, as the height of a funnel and of its heap, they are rig_height and
+// measured_height.
 std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind);
 
-// A number and its standard error: as given after ±, or the usual one. Throws ConfigError where
+// An answer with its unit, such as the bench has it.
+std::string ExampleOf(const TestQuestion& question);
+
+// What people type has its unit: a bare 10 for a plate is seldom ten metres. Throws ConfigError.
+void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example);
+
+// A number and its standard error: as given after ±, or the usual one. A unit that only one of the
+// two has is that of both: "0.64±0.01 g/mL". Throws ConfigError where
 // there is neither, or where one of them is no number with a unit that fits.
 struct MeasuredText {
   std::string value;

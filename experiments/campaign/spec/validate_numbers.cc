@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/nearest.h"
 #include "base/text/joined.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -41,12 +42,15 @@ void ValidateMeasured(const ExperimentSpec& e, const std::vector<ScalarSpec>& nu
                       const std::string& place, base::Problems& problems) {
   const rigs::Case rig = RigOf(e);
   const auto known = rigs::EntryOf(rig).observables;
+  std::vector<std::string> keys;
+  for (const rigs::RigObservable& o : known) keys.emplace_back(rigs::InfoOf(o.observable).key);
   for (const ScalarSpec& scalar : numbers) {
     const auto name = [](const rigs::RigObservable& o) { return rigs::MetricName(o.observable); };
     if (std::ranges::find(known, scalar.metric, name) != known.end()) continue;
     problems.Add(PathOf(place, scalar.key),
                  "is not measured by the rig " + std::string(base::NameOf(rig.rig.kind)) +
                      ", which measures " + base::Joined(known, ", ", name) +
+                     base::DidYouMean(scalar.key, keys) +
                      "; remove it, or name the rig of this test");
   }
 }
