@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/text/number_text.h"
+#include "experiments/campaign/spec/agreeing_numbers.h"
 #include "experiments/campaign/spec/plausible_quantity.h"
+#include "experiments/campaign/spec/plausible_stresses.h"
 #include "experiments/campaign/spec/possible_numbers.h"
 
 namespace talus::campaign {
@@ -174,6 +176,16 @@ struct RigChecker {
   void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
 };
 
+Surroundings Around(const CampaignSpec& spec, const rigs::Powder& powder, std::string prefix,
+                    std::string filled_by) {
+  Surroundings around{.prefix = std::move(prefix),
+                      .grain_density = powder.material.density,
+                      .filled = powder.mass,
+                      .filled_by = std::move(filled_by)};
+  if (spec.parameters && spec.parameters->density) around.grain_density.reset();
+  return around;
+}
+
 }  // namespace
 
 double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
@@ -192,6 +204,7 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     const ExperimentSpec& e = experiments[i];
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
     RequirePossible(e.numbers, place(""), problems);
+    CheckStresses(e, place(""), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
     rigs::Powder powder = spec.powder;
     powder.mass = MostMass(spec, e);
@@ -207,6 +220,7 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
       rigs::RigOptions::Visit(*e.rig, checker);
     }
     if (problems.size() > before) continue;  // what is wrong by itself is said of itself
+    RequireAgreeing(e, Around(spec, powder, place(""), mass), problems);
     CheckNumberOfGrains(powder, mass, problems);
     if (is_tube) CheckHeight(powder, e.device->tube_inner_diameter, mass, problems);
   }

@@ -20,6 +20,22 @@ bool IsShort(double number) {
   return std::abs(1e3 * number - std::round(1e3 * number)) < 1e-6 * (1 + std::abs(number));
 }
 
+// What is never 0, so that an error as large as the value says nothing: most often it has another
+// unit.
+constexpr rigs::Observable kNeverZero[] = {
+    rigs::Observable::kBulkDensity,         rigs::Observable::kPouredDensity,
+    rigs::Observable::kTappedDensity,       rigs::Observable::kHausnerRatio,
+    rigs::Observable::kTappedSolidFraction, rigs::Observable::kHeight,
+    rigs::Observable::kColumnHeight,        rigs::Observable::kAspectRatio,
+    rigs::Observable::kDischargeTime,       rigs::Observable::kSizeDrift,
+    rigs::Observable::kShearStress1,        rigs::Observable::kShearStress2,
+    rigs::Observable::kShearStress3};
+
+bool IsNeverZero(std::string_view key) {
+  return std::ranges::any_of(kNeverZero,
+                             [&](rigs::Observable o) { return rigs::InfoOf(o).key == key; });
+}
+
 // Walks the table of observables.
 struct Checker {
   const std::string& prefix;
@@ -30,6 +46,7 @@ struct Checker {
                   const base::FieldInfo& = {}) {
     if (!number) return;
     const std::string place = prefix + std::string(key) + ".";
+    if (IsNeverZero(key)) RequireKnown(*number, place, base::SiUnit(D));
     if constexpr (D == base::Dimension::kAngle) {
       ForEach(*number, place,
               [&](const std::string& one, double value) { RequireAngle(one, value, kSteepest); });
@@ -52,6 +69,16 @@ struct Checker {
     for (std::size_t i = 0; i < values.size(); ++i) {
       body(place + "values[" + std::to_string(i) + "]", values[i]);
     }
+  }
+
+  template <class Number>
+  void RequireKnown(const Number& number, const std::string& place, std::string_view unit) {
+    const bool has_scatter = number.values && number.values->size() > 1;
+    const std::string value = base::ShortNumber(number.Value()) + (unit.empty() ? "" : " ");
+    problems.Require(number.StandardError() < number.Value(),
+                     place + (has_scatter ? "values" : "sd"), number.StandardError(),
+                     "as a standard error must be below the value, " + value + std::string(unit) +
+                         ": has one of them another unit?");
   }
 
   // What is short in degrees and not in radians was given in degrees.
