@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/json/json_reader.h"
 #include "base/text/counted.h"
@@ -21,6 +22,7 @@
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/engines/command_case.h"
@@ -42,6 +44,19 @@ void PrintExperiment(const journal::ExperimentRecord& e, const campaign::Experim
               << " ± " << rigs::ShownNumber(s.name, s.standard_error);
   }
   std::cout << '\n';
+}
+
+// What each test is simulated with, in the bench's units: a slip shows where it can be believed.
+void PrintRigs(const campaign::CampaignSpec& spec,
+               const std::vector<campaign::ExperimentSpec>& experiments) {
+  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const rigs::Case rig_case = campaign::TypicalCase(spec, static_cast<int>(e), finest);
+    std::cout << "  rig               "
+              << (experiments.size() > 1 ? experiments[e].name + ": " : "")
+              << rigs::DeviceText(rig_case) << ", mass "
+              << base::ShortNumber(1e3 * rig_case.powder.mass) << " g\n";
+  }
 }
 
 // Where a warning holds.
@@ -99,6 +114,7 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   PrintSearched(campaign::SearchedParameters(spec), spec);
   if (!with_experiment) std::cout << "  experiment        not looked at (--without-experiment)\n";
   const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
+  PrintRigs(spec, experiments);
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     PrintExperiment(record.experiments[e], experiments[e], record);
   }

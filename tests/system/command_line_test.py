@@ -357,6 +357,13 @@ class Progress(unittest.TestCase):
     def test_init_takes_a_share_in_percent(self):
         self.assertIn('"restitution": "90%"', self.started("--restitution", "90%", "--test", "drum:angle=30deg"))
 
+    # A drum of 5 rad/s instead of 5 rpm shows where it can be believed.
+    def test_validate_says_what_each_test_is_simulated_with(self):
+        self.started("--test", "drum:angle=30deg,speed=5rpm", "--test", "shear_cell:mass=10g,cohesion=120Pa±40Pa")
+        said = talus("validate", str(self.folder / "started.json")).stdout
+        self.assertIn("  rig               drum: drum: diameter 60 mm, width 14 mm, speed 5 rpm, mass 5 g\n", said)
+        self.assertIn("  rig               shear cell: shear cell: stresses 1 kPa, 2 kPa and 4 kPa, diameter 25 mm", said)
+
     # What nothing measures is no objective.
     def test_numbers_alone_have_no_objective(self):
         text = self.started("--test", "drum:angle=30deg,angle=31deg")

@@ -4,7 +4,9 @@
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 
 namespace talus::rigs {
@@ -21,9 +23,14 @@ struct Quantities {
   std::string text{};
 
   void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
-    const std::string quantity = QuantityText(value, info.dimension);
-    if (quantity.empty() || key == "plate_height") return;  // no heap depends on that
-    text += (text.empty() ? ": " : ", ") + Spaced(key) + " " + quantity;
+    if (key != "plate_height")
+      Add(key, {QuantityText(value, info.dimension)});  // no heap depends on it
+  }
+  void operator()(std::string_view key, const std::vector<double>& values,
+                  const base::FieldInfo& info = {}) {
+    std::vector<std::string> quantities;
+    for (const double value : values) quantities.push_back(QuantityText(value, info.dimension));
+    Add(key, quantities);
   }
   void operator()(std::string_view key, const std::optional<double>& value,
                   const base::FieldInfo& info = {}) {
@@ -31,7 +38,20 @@ struct Quantities {
   }
   template <class Other>
   void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
+
+ private:
+  void Add(std::string_view key, const std::vector<std::string>& quantities) {
+    if (quantities.empty() || quantities.front().empty()) return;
+    text += (text.empty() ? ": " : ", ") + Spaced(key) + " " + base::Listed(quantities);
+  }
 };
+
+// "200 Pa", "4 kPa"
+std::string PressureText(double value) {
+  constexpr double kKilo = 1e3;
+  return value < kKilo ? base::ShortNumber(value) + " Pa"
+                       : base::ShortNumber(value / kKilo) + " kPa";
+}
 
 }  // namespace
 
@@ -47,6 +67,8 @@ std::string QuantityText(double value, base::Dimension dimension) {
       return base::ShortNumber(180 / std::numbers::pi * value) + " deg";
     case base::Dimension::kTime:
       return base::ShortNumber(value) + " s";
+    case base::Dimension::kPressure:
+      return PressureText(value);
     default:
       return "";
   }

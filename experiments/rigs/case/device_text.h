@@ -8,11 +8,11 @@
 namespace talus::rigs {
 
 // "84 mm", "10 rpm", "33 deg": in the unit of the bench, as inputs may have it; empty for what is
-// no length, speed, angle or time.
+// no length, speed, angle, time or stress.
 std::string QuantityText(double value, base::Dimension dimension);
 
-// "drum: diameter 84 mm, width 14 mm, speed 10 rpm": lengths, speeds, angles and times of the rig's
-// own options.
+// "drum: diameter 84 mm, width 14 mm, speed 10 rpm": lengths, speeds, angles, times and stresses of
+// the rig's own options.
 std::string DeviceText(const Case& rig_case);
 
 }  // namespace talus::rigs

@@ -14,6 +14,7 @@
 #include "base/json/json_schema.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/lifted_tube/connectivity.h"
@@ -210,6 +211,16 @@ TEST(Case, TheShippedSchemaIsTheParsers) {
   const std::string schema = base::FileSchema<Case>("talus heap case").dump(2) + "\n";
   if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
   EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+TEST(DeviceText, HasWhatTheTestIsMadeWithInTheBenchsUnits) {
+  Case c;
+  c.rig.kind = RigKind::kShearCell;
+  c.rig.shear_cell.stresses = {200, 1e3, 2.5e3};
+  EXPECT_EQ(DeviceText(c),
+            "shear cell: stresses 200 Pa, 1 kPa and 2.5 kPa, diameter 25 mm, speed 2 cm/s");
+  c.rig.kind = RigKind::kDrum;
+  EXPECT_EQ(DeviceText(c), "drum: diameter 60 mm, width 14 mm, speed 10 rpm");
 }
 
 }  // namespace case_test
