@@ -364,6 +364,12 @@ class Progress(unittest.TestCase):
         self.assertIn("  rig               drum: drum: diameter 60 mm, width 14 mm, speed 5 rpm, mass 5 g\n", said)
         self.assertIn("  rig               shear cell: shear cell: stresses 1 kPa, 2 kPa and 4 kPa, diameter 25 mm", said)
 
+    # Its fill says how full a drum is; a mass that another test takes stands beside it.
+    def test_init_gives_no_mass_that_no_test_takes(self):
+        drum = "drum:angle=30deg,fill=0.3"
+        self.assertNotIn('"mass"', self.started("--test", drum))
+        self.assertIn('"mass": "5g"', self.started("--test", drum, "--test", "tilting_box:angle=33deg"))
+
     # What nothing measures is no objective.
     def test_numbers_alone_have_no_objective(self):
         text = self.started("--test", "drum:angle=30deg,angle=31deg")
@@ -374,10 +380,11 @@ class Progress(unittest.TestCase):
         spec.write_text(text.replace('"seed": 1', '"seed": 1, "trial_time_cap": "1 s"'))
         self.assertRegex(talus("validate", str(spec)).stdout,
                          r"warning: drum at scale factor 1: a trial takes about .*, and fails at the trial_time_cap of 1 s")
-        spec.write_text(text.replace('"seed": 1', '"seed": 1, "objective": "aor2"'))
-        done = talus("validate", str(spec))
-        self.assertEqual(done.returncode, 2)
-        self.assertIn('objective: "aor2" is of an image', done.stderr)
+        for objective in ("aor2", "sad"):
+            spec.write_text(text.replace('"seed": 1', f'"seed": 1, "objective": "{objective}"'))
+            done = talus("validate", str(spec))
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f'objective: "{objective}" is of an image', done.stderr)
 
     # The spec that init writes of numbers alone, which it has read as any campaign would.
     def started(self, *flags):

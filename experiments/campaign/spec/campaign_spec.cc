@@ -10,6 +10,7 @@
 #include "base/text/joined.h"
 #include "base/text/name.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/campaign/spec/ignored_keys.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
@@ -103,19 +104,6 @@ void PointToList(const nlohmann::json& root, base::Problems& problems) {
                    "has " + base::Listed(of_list) +
                        ": numbers and what is a test's own stand in `experiments`, a list: "
                        "\"experiments\": [{\"name\": \"heap\", …}] in place of \"experiment\"");
-}
-
-// The angles and grey levels of an image, which numbers alone have none of. SAD is every spec's
-// default, and harmless there.
-void RequireObjective(const CampaignSpec& spec, base::Problems& problems) {
-  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
-  const bool has_image =
-      std::ranges::any_of(all, [](const ExperimentSpec& e) { return e.images.HasImages(); });
-  problems.Require(has_image || all.empty() || spec.objective == journal::Objective::kSad,
-                   "objective",
-                   "\"" + std::string(base::NameOf(spec.objective)) +
-                       "\" is of an image, and no experiment has one: numbers are met by their "
-                       "errors, leave it out");
 }
 
 // Whether every trial has the same objective, as a plain minimiser needs it.
@@ -237,8 +225,8 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   SetDrumDiameters(spec);
   PointToList(file.root, problems);
   base::TreeValidator(problems).Check(spec);
+  RefuseIgnoredKeys(file, spec, problems);
   if (problems.empty()) {
-    RequireObjective(spec, problems);
     const optimizer::ParameterSpace space = SpaceOf(spec);
     space.Validate(problems);
     problems.Within("strategy", [&] {

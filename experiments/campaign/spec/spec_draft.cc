@@ -250,6 +250,21 @@ std::string Experiments(const SpecAnswers& answers) {
   return text + "\n  ],\n";
 }
 
+// A drum's fill is in place of a mass, which is not given beside it where no test takes it.
+std::string MassText(const SpecAnswers& answers) {
+  const auto has = [](const char* key) {
+    return [key](const DraftTest& test) { return !test.Answer(key).empty(); };
+  };
+  const bool is_taken =
+      answers.HasPhotographs() || std::ranges::any_of(answers.tests, [&](const DraftTest& test) {
+        return !has("mass")(test) && !has("fill")(test);
+      });
+  if (!is_taken && std::ranges::any_of(answers.tests, has("fill"))) return "";
+  return ",\n    \"mass\": " + Quoted(answers.mass) +
+         (answers.HasPhotographs() ? " // filled into the tube"
+                                   : " // filled into each test that has no mass of its own");
+}
+
 std::string Powder(const SpecAnswers& answers) {
   return "  \"powder\": {\n    \"material\": {\n      \"density\": " + Quoted(answers.density) +
          ", // of the grains, not of the bulk\n"
@@ -266,10 +281,7 @@ std::string Powder(const SpecAnswers& answers) {
          "\n    },\n"
          "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
-         Quoted(answers.grain_diameter) + "},\n    \"mass\": " + Quoted(answers.mass) +
-         (answers.HasPhotographs()
-              ? " // filled into the tube\n  },\n"
-              : " // filled into each test that has no mass of its own\n  },\n");
+         Quoted(answers.grain_diameter) + "}" + MassText(answers) + "\n  },\n";
 }
 
 std::string Device(const SpecAnswers& answers) {
