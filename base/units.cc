@@ -180,6 +180,16 @@ void RefuseComma(std::string_view text, std::string_view trimmed, std::string_vi
                     CommaAdvice(sign, unsigned_text.substr(0, end), unsigned_text.substr(end)));
 }
 
+// What stands after a number; nothing where there is none.
+std::optional<std::string_view> AfterNumber(std::string_view text) {
+  const std::string_view trimmed = Trimmed(text);
+  double value = 0;
+  const char* const end = trimmed.data() + trimmed.size();
+  const auto [rest, status] = std::from_chars(trimmed.data(), end, value);
+  if (status != std::errc() || !std::isfinite(value)) return std::nullopt;
+  return Trimmed(trimmed.substr(static_cast<std::size_t>(rest - trimmed.data())));
+}
+
 }  // namespace
 
 std::string_view SiUnit(Dimension dimension) {
@@ -187,14 +197,13 @@ std::string_view SiUnit(Dimension dimension) {
 }
 
 std::string_view UnitIn(std::string_view text) {
-  const std::string_view trimmed = Trimmed(text);
-  double value = 0;
-  const char* const end = trimmed.data() + trimmed.size();
-  const auto [rest, status] = std::from_chars(trimmed.data(), end, value);
-  const std::string_view unit =
-      Trimmed(trimmed.substr(static_cast<std::size_t>(rest - trimmed.data())));
-  const bool is_number = status != std::errc::invalid_argument && !unit.starts_with(',');
-  return is_number ? unit : std::string_view();
+  const std::optional<std::string_view> rest = AfterNumber(text);
+  return rest && !rest->starts_with(',') ? *rest : std::string_view();
+}
+
+bool IsBareNumber(std::string_view text) {
+  const std::optional<std::string_view> rest = AfterNumber(text);
+  return rest && rest->empty();
 }
 
 double ParseQuantity(std::string_view text, Dimension dimension) {

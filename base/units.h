@@ -30,6 +30,9 @@ std::string_view SiUnit(Dimension dimension);
 // "g/mL" of "0.64 g/mL", as it is typed; "" of a bare number and of what is none.
 std::string_view UnitIn(std::string_view text);
 
+// Whether a text is a number without a unit.
+bool IsBareNumber(std::string_view text);
+
 // "45 um" → 4.5e-5. A bare number is taken to be in SI. Throws ConfigError that names the text and
 // the units that fit.
 double ParseQuantity(std::string_view text, Dimension dimension);

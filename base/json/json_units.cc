@@ -25,10 +25,10 @@ std::string FirstUnit(const json& value) {
 
 // A number, or a text that is one and nothing else; "" of all others, and of 0.
 std::string BareNumber(const json& value) {
-  if (value.is_number()) return value.get<double>() == 0 ? "" : JsonText(value);
-  const json read =
-      value.is_string() ? json::parse(value.get_ref<const std::string&>(), nullptr, false) : json();
-  return read.is_number() && read.get<double>() != 0 ? value.get<std::string>() : "";
+  const std::string text = value.is_number()   ? JsonText(value)
+                           : value.is_string() ? value.get<std::string>()
+                                               : "";
+  return IsBareNumber(text) && ParseQuantity(text, Dimension::kNone) != 0 ? text : "";
 }
 
 void RequireUnit(const json& value, const std::string& unit, std::string_view place,

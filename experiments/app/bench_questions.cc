@@ -75,6 +75,14 @@ void Check(const Question& question, const std::string& answer) {
   if (!text.empty()) throw base::ConfigError(is + text);
 }
 
+// A flag's answer has its unit, too: of 10 kg for 10 g a length would be said to be wrong, as the
+// grains are made so large. What is no number is said with the rest.
+void CheckUnit(const Question& question, const std::string& answer, base::Problems& problems) {
+  if (question.dimension == kNone || !base::IsBareNumber(answer)) return;
+  problems.Add(question.flag,
+               "\"" + answer + "\" has no unit; write one, such as \"" + question.example + "\"");
+}
+
 // Until `check` lets the answer pass; `kept` where Enter is typed and may be.
 template <class Checker>
 std::string AskUntil(const std::string& words, const std::string& kept, bool may_be_empty,
@@ -195,6 +203,7 @@ void Complete(SpecAnswers& answers) {
     if (!IsAsked(question, answers)) continue;
     std::string& answer = answers.*question.answer;
     if (asks && answer.empty()) answer = Ask(question, "");
+    CheckUnit(question, answer, problems);
     if (answer.empty() && question.asked != Asked::kMayBeOpen) {
       problems.Add(question.flag, std::string("is missing; give the ") + question.words + ": \"" +
                                       question.example + "\"");

@@ -15,6 +15,25 @@
 namespace talus::rigs {
 namespace {
 
+// Said of the rate where there is one, else of the mass, which most often has another unit.
+void ValidatePouringTime(const Case& c, const Vessel& vessel, base::Problems& problems) {
+  constexpr double kLongest = 60;  // what no funnel needs for a laboratory's powder [s]
+  const engine::Pour pour = MakePour(c, vessel);
+  const std::string seconds =
+      base::ShortNumber(pour.Duration(), 3) + " s, above the 60 s that are simulated";
+  const std::string rate = base::ShortNumber(c.powder.mass / kLongest);
+  const bool is_short = pour.Duration() <= kLongest;
+  if (c.filling.rate) {
+    return problems.Require(is_short, "filling.rate", pour.plan().rate,
+                            "kg/s pours for " + seconds + "; raise it to " + rate + " or more");
+  }
+  problems.Require(
+      is_short, "powder.mass", c.powder.mass,
+      "in kg, which runs out of a mouth of " + base::ShortNumber(1e3 * MouthDiameter(c, vessel)) +
+          " mm in " + seconds + "; write \"" + base::ShortNumber(c.powder.mass) +
+          " g\" if it is in grams, or give a filling.rate of " + rate + " kg/s or more");
+}
+
 // A grain that sinks too deeply into what it falls on would be pressed through the floor.
 void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems) {
   const double mouth = MouthDiameter(c, vessel);
@@ -23,12 +42,7 @@ void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems)
                                                       : "must be below the width of the vessel");
   problems.Require(!c.filling.mouth_diameter || mouth > 2 * LargestDiameter(c),
                    "filling.mouth_diameter", mouth, "must be above two (scaled) grain diameters");
-  constexpr double kLongest = 60;  // what no funnel needs for a laboratory's powder [s]
-  const engine::Pour pour = MakePour(c, vessel);
-  problems.Require(pour.Duration() <= kLongest, "filling.rate", pour.plan().rate,
-                   "kg/s pours for " + base::ShortNumber(pour.Duration()) +
-                       " s, above the 60 s that are simulated; raise it to " +
-                       base::ShortNumber(c.powder.mass / kLongest) + " or more");
+  ValidatePouringTime(c, vessel, problems);
   if (!problems.empty()) return;
   const double share = ImpactShare(c, vessel);
   if (share <= kMaxImpactShare) return;
@@ -108,9 +122,11 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
   problems.Require(size.num_grains >= 1, "powder.mass", c.powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
   const double least = 3 * LargestDiameter(c);
-  problems.Require(
-      least < vessel.across, PathOfWidth(c, vessel.across), vessel.across,
-      "must be above three (scaled) grain diameters, " + base::ShortNumber(1e3 * least) + " mm");
+  const double factor = c.coarse_graining.scale_factor;
+  problems.Require(least < vessel.across, PathOfWidth(c, vessel.across), vessel.across,
+                   "must be above three (scaled) grain diameters, " +
+                       base::ShortNumber(1e3 * least) + " mm" +
+                       (factor > 1 ? " at scale factor " + base::ShortNumber(factor) : ""));
   entry.validate(c, problems);
   ValidateLastPicture(c, problems);
   if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);

@@ -60,6 +60,9 @@ TEST(Units, AUnitStandsAfterItsNumber) {
   EXPECT_EQ(UnitIn("7 "), "");
   EXPECT_EQ(UnitIn("mm"), "");
   EXPECT_EQ(UnitIn("1,602 g"), "");
+  EXPECT_TRUE(IsBareNumber(" 1e-3 "));
+  EXPECT_FALSE(IsBareNumber("1 g"));
+  EXPECT_FALSE(IsBareNumber("g"));
 }
 
 TEST(Units, ACommaInANumberIsNamedWithWhatToWrite) {

@@ -51,6 +51,25 @@ double TravelOf(const Case& c) {
 
 double ShearingTime(const Case& c) { return TravelOf(c) / c.rig.shear_cell.speed; }
 
+// Said of the speed where one is given, else of the least stress, which may be of kilopascals.
+void ValidateInertia(const Case& c, base::Problems& problems) {
+  const ShearCellOptions& o = c.rig.shear_cell;
+  const double least = o.stresses.front();
+  const double inertial = o.speed / kShearZone * std::sqrt(c.powder.material.density / least);
+  const bool is_slow = inertial <= kMostInertial;
+  const std::string fastest = base::ShortNumber(o.speed * kMostInertial / inertial) + " m/s";
+  const std::string stress = base::ShortNumber(least);
+  if (o.speed != ShearCellOptions{}.speed) {
+    return problems.Require(is_slow, "rig.speed", o.speed,
+                            "m/s is so fast under " + stress +
+                                " Pa that inertia adds to the friction; " + fastest + " at most");
+  }
+  problems.Require(is_slow, "rig.stresses[0]", least,
+                   "in Pa, is so little that inertia adds to the friction at the lid's " +
+                       base::ShortNumber(1e3 * o.speed) + " mm/s; write \"" + stress +
+                       " kPa\" if they are in kPa, or give a rig.speed of " + fastest + " at most");
+}
+
 // Upright and radial, from `low` to `high` [m].
 engine::Wall Vane(const Case& c, const std::string& name, int number, double low, double high) {
   const double radius = c.rig.shear_cell.diameter / 2;
@@ -156,11 +175,7 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
                      "stands " + base::ShortNumber(height / o.diameter) +
                          " times as high as the cell is wide, must be 1 or less; take less powder "
                          "or a larger rig.diameter");
-    const double inertial =
-        o.speed / kShearZone * std::sqrt(c.powder.material.density / o.stresses.front());
-    problems.Require(inertial <= kMostInertial, "rig.speed", o.speed,
-                     "m/s is so fast that inertia adds to the friction; " +
-                         base::ShortNumber(o.speed * kMostInertial / inertial) + " m/s at most");
+    ValidateInertia(c, problems);
     const double most = o.stresses.back();
     const double bearable = BearableStress(c);
     problems.Require(most <= bearable, "rig.stresses", most,

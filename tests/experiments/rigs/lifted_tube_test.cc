@@ -288,6 +288,18 @@ TEST(LiftedTube, AFunnelThatWouldPourForHoursIsRefused) {
   EXPECT_THAT(problems.list().front().message, ::testing::HasSubstr("raise it to"));
 }
 
+// Nobody has given a rate: the mass has another unit, or the mouth is too narrow for it.
+TEST(LiftedTube, AMassThatWouldRunForHoursIsNamedByItself) {
+  Case c = Poured(0.5, 0.2);
+  c.filling.mouth_diameter = 2.1 * LargestDiameter(c);
+  c.powder.mass *= 300;
+  base::Problems problems;
+  ValidateCase(c, problems);
+  EXPECT_THAT(problems.Text(), ::testing::HasSubstr("powder.mass: is 0."));
+  EXPECT_THAT(problems.Text(),
+              ::testing::HasSubstr(" g\" if it is in grams, or give a filling.rate"));
+}
+
 // The floor does not stop hard grains. Their bed leapt out of its tube, and a heap of nothing was
 // called done; thousands of taps went on for hours.
 TEST(LiftedTube, TapsThatNoDeviceMakesAreRefused) {
