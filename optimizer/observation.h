@@ -4,6 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+// Strategies and their callers free each other's vectors, so both must have Eigen allocate alike.
+static_assert(EIGEN_MALLOC_ALREADY_ALIGNED,
+              "compile what includes this without -mavx and -march=native, or with "
+              "-DEIGEN_DONT_VECTORIZE");
+
 namespace talus::optimizer {
 
 enum class Origin { kDesign, kRepeat, kModel, kSearch };  // why a point was proposed

@@ -1,5 +1,7 @@
 #include "experiments/rigs/rig_list.h"
 
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace talus::rigs {
@@ -8,6 +10,8 @@ namespace {
 constexpr const RigEntry* kRigs[] = {
     &kLiftedTubeRig, &kTappedDensityRig, &kColumnCollapseRig, &kTiltingBoxRig, &kDrawDownRig,
     &kDrumRig,       &kOrificeFlowRig,   &kFunnelHeapRig,     &kSpreadingRig,  &kShearCellRig};
+
+static_assert(std::size(kRigs) == static_cast<std::size_t>(LastOf(RigKind{})) + 1);
 
 }  // namespace
 

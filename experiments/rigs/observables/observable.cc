@@ -12,6 +12,7 @@ constexpr bool InTheEnumsOrder() {
   return true;
 }
 static_assert(InTheEnumsOrder());
+static_assert(kObservables.size() == static_cast<std::size_t>(LastOf(Observable{})) + 1);
 
 }  // namespace
 

@@ -54,6 +54,7 @@ enum class Observable {
   kFrictionAngle,
   kCohesion
 };
+constexpr Observable LastOf(Observable) { return Observable::kCohesion; }
 
 // The error that a careful laboratory reaches: of the value, or in the observable's unit.
 struct UsualError {

@@ -12,7 +12,6 @@ inline constexpr const char* kSoft = "#55626d";  // what stands back
 inline constexpr const char* kStar = "#c1121f";  // the recommended set
 inline constexpr const char* kAccentPale = "#d5e6ef";
 inline constexpr const char* kScatterBand = "#9fb3c0";  // of one simulation
-inline constexpr const char* kTrials = "#9aa5ad";       // those that are not among the best
 
 // Joint regions of a posterior.
 inline constexpr const char* kRegion50 = "#2b7ba8";
