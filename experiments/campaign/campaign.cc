@@ -340,12 +340,14 @@ void Campaign::ShowStatus() {
   const BudgetUse use =
       UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()),
             planner_.goal() ? planner_.goal()->core_time : 0);
+  const int num_waiting = parts_.runner->NumWaiting();
   CampaignProgress progress{.num_search = use.num_search,
                             .num_confirm = use.num_confirm,
                             .budget = spec_.budget.simulations,
                             .used = UseText(spec_.budget, use, Elapsed()),
                             .core_seconds_budget = spec_.budget.core_time,
-                            .num_running = static_cast<int>(running_.size()),
+                            .num_running = static_cast<int>(running_.size()) - num_waiting,
+                            .num_waiting = num_waiting,
                             .unit = std::string(journal::InfoOf(spec_.objective).unit),
                             .seconds_left = use.seconds_left};
   if (spec_.budget.core_time) progress.core_seconds = use.core_seconds;

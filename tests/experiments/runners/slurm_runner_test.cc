@@ -156,6 +156,7 @@ TEST_F(SlurmRunnerTest, JobsGivenTogetherAreOneArrayAndTellHowTheyEnded) {
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(7, "echo \"it's $PWD\""), Shell(8, "exit 3"), Shell(9, "kill -9 $$")};
   EXPECT_THAT(runner.Submit(jobs), ElementsAre("101_0", "101_1", "101_2"));
+  EXPECT_THAT(Text("campaign/slurm/batch-000001.sh"), HasSubstr("--job-name=campaign-talus-"));
   Put("queue", "101_0|COMPLETED|None\n101_1|FAILED|NonZeroExitCode\n101_2|OUT_OF_MEMORY|\n");
   const auto finished = Finish(runner, 3);
   ASSERT_EQ(finished.size(), 3u);
@@ -313,6 +314,44 @@ TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
   EXPECT_FALSE(fs::exists(root_ / "submitted"));
 }
 
+TEST_F(SlurmRunnerTest, ASlurmThatDoesNotAnswerIsSaid) {
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  Put("queue_is_down", "");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  EXPECT_THAT(runner.Trouble(),
+              HasSubstr("squeue does not say how the jobs are: Unable to contact"));
+  fs::remove(root_ / "queue_is_down");
+  Put("queue", "101_0|RUNNING|None|0:01\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  EXPECT_EQ(runner.Trouble(), "");
+}
+
+TEST_F(SlurmRunnerTest, JobsThatSlurmHasNotBegunAreWaiting) {
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  runner.Submit(jobs);
+  EXPECT_EQ(runner.NumWaiting(), 2);
+  Put("queue", "101_0|RUNNING|None|0:01\n101_1|PENDING|Priority|0:00\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  EXPECT_EQ(runner.NumWaiting(), 1);
+}
+
+TEST_F(SlurmRunnerTest, AJobThatSlurmHasEndedTookAsLongAsSlurmSays) {
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|TIMEOUT|TimeLimit|1:02:03\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kTimeCap);
+  EXPECT_EQ(finished[0].duration, 3723);
+}
+
 // Slurm says the same of a queue that is full for now and of a job that is too large for ever.
 TEST_F(SlurmRunnerTest, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
   SlurmRunner runner(options_, root_ / "campaign");
@@ -333,7 +372,7 @@ TEST_F(SlurmRunnerTest, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
 
 // It would count as failed trials of the parameters, and teach the search that they fail.
 TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
-  options_.setup = {"echo no such module >&2; exit 1"};
+  options_.setup = {"echo no such module >&2; exit 7"};
   SlurmRunner runner(options_, root_ / "campaign");
   Program("sbatch", std::string(kSbatch).replace(std::string(kSbatch).find(">/dev/null 2>&1; done"),
                                                  21, R"(>"${2%.sh}-$task.log" 2>&1; done)"));
@@ -342,8 +381,44 @@ TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
   const auto finished = Finish(runner, 1);
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("exit status 7"));
   EXPECT_THAT(finished[0].reason, HasSubstr("no such module"));
+  EXPECT_THAT(finished[0].reason, HasSubstr("slurm/batch-000001-0.log"));
   EXPECT_FALSE(fs::exists(root_ / "trials/1/ran"));
+}
+
+// What the failed set-up has left in the trial's folder was taken for the end of every later try.
+TEST_F(SlurmRunnerTest, AfterASetUpThatFailedTheJobIsSubmittedAnew) {
+  const Job jobs[] = {Shell(1, "touch ran")};
+  options_.setup = {"exit 7"};
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    runner.Submit(jobs);
+    ASSERT_EQ(Finish(runner, 1).size(), 1u);
+  }
+  options_.setup.clear();
+  SlurmRunner runner(options_, root_ / "campaign");
+  EXPECT_FALSE(runner.Adopt(jobs[0], ""));
+  runner.Submit(jobs);
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_TRUE(finished[0].ok());
+  EXPECT_TRUE(fs::exists(root_ / "trials/1/ran"));
+}
+
+// It waited in the queue while the set-up was mended: the script that it was submitted with is old.
+TEST_F(SlurmRunnerTest, AnAdoptedJobWhoseOldSetUpFailsMayRunAgain) {
+  Put("hold", "");
+  Job job = Shell(1, "true");
+  SlurmRunner(options_, root_ / "campaign").Submit({&job, 1});
+  SlurmRunner runner(options_, root_ / "campaign");
+  job.command.clear();  // as a campaign adopts it
+  ASSERT_TRUE(runner.Adopt(job, ""));
+  Put("trials/1/.slurm_end", "1 0 7 0 0 0 node7 set-up\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kPreempted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("exit status 7"));
 }
 
 TEST_F(SlurmRunnerTest, AFolderByAnotherNameHasTheSameJobs) {
@@ -423,6 +498,13 @@ TEST(SlurmVerdict, LimitsOfAForgottenJobAreSeenInTheLog) {
   EXPECT_EQ(VerdictOf({kLost, ""}, "slurmstepd: error: Detected 1 oom-kill event(s) in step\n").end,
             JobEnd::kOutOfMemory);
   EXPECT_EQ(VerdictOf({kLost, ""}, "").end, JobEnd::kNodeFailure);
+}
+
+TEST(SlurmQueue, TimesAreReadAsSlurmWritesThem) {
+  EXPECT_EQ(ParseElapsed("1-02:03:04"), 93784);
+  EXPECT_EQ(ParseElapsed("03:04"), 184);
+  EXPECT_EQ(ParseElapsed("INVALID"), 0);
+  EXPECT_EQ(ParseSacct("7_0|CANCELLED by 0|00:00:09\n").at("7_0").elapsed, 9);
 }
 
 TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {
