@@ -39,4 +39,10 @@ rigs::Case LoadAnyCase(const std::filesystem::path& path) {
   return rigs::Completed(base::LoadOptions<CommandCase>(file).heap, file);
 }
 
+std::optional<CommandOptions> EngineOfCase(const std::filesystem::path& path) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  if (!file.root.is_object() || !file.root.contains("engine")) return std::nullopt;
+  return base::LoadOptions<CommandCase>(file).engine;
+}
+
 }  // namespace talus::trials

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "base/json/json_file.h"
@@ -34,5 +35,8 @@ CommandCase LoadCommandCase(const base::JsonFile& file);
 // The bulk test of a case.json, whatever simulates it: the engine is neither looked for nor
 // checked. Throws as rigs::LoadCase does.
 rigs::Case LoadAnyCase(const std::filesystem::path& path);
+
+// The other engine of a case.json; nothing where it is ours.
+std::optional<CommandOptions> EngineOfCase(const std::filesystem::path& path);
 
 }  // namespace talus::trials
