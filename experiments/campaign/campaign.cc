@@ -201,6 +201,11 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (found == running_.end()) return;
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
+  if (stale_.erase(trial.id) > 0) {  // however it has ended, it was the former engine's
+    ++reruns_[trial.id];
+    waiting_.push_back(std::move(trial));
+    return;
+  }
   if (job.duration > 0) trial.duration_s = job.duration;
   if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;

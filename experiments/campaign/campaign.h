@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct CampaignParts {
   std::unique_ptr<runners::Runner> runner;
   std::unique_ptr<trials::TrialEngine> engine;
   std::unique_ptr<GoalJudge> goal{};  // of a spec with a goal
+  // Whether the engine has been mended since the last session: all that was begun is run again.
+  bool engine_is_new = false;
 };
 
 enum class CampaignEnd { kFinished, kInterrupted, kFailed };
@@ -113,6 +116,7 @@ class Campaign {
   std::deque<journal::TrialRecord> waiting_;             // to be run, when there is room
   std::vector<EndedTrial> ended_;                        // to be told, in their turn
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
+  std::set<std::int64_t> stale_;                         // running, by an engine that was mended
   std::string trouble_;                                  // of the queue, as last told
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;
