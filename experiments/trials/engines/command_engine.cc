@@ -151,6 +151,19 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
   return measured;
 }
 
+// Without a frame numbers are enough, and most likely what was meant.
+fs::path FindMeasurable(const CommandOptions& options, const rigs::Case& rig_case,
+                        const fs::path& folder) {
+  if (rig_case.frame) return FindResult(options, folder, kCommandFile);
+  try {
+    return FindResult(options, folder, kCommandFile);
+  } catch (const base::Error& error) {
+    throw base::Error(
+        std::string("left neither scalars.json nor scalars.csv with its numbers, and ") +
+        error.what());
+  }
+}
+
 // What the command left: spheres or an image where there is a frame, numbers, or both. The numbers
 // of a lifted tube's heap follow from its spheres; one that the command gives itself counts.
 Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case,
@@ -158,7 +171,7 @@ Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case
   const std::vector<journal::MetricRecord> given = ReadScalars(folder);
   Measured measured;
   if (rig_case.frame || given.empty()) {
-    const fs::path file = FindResult(options, folder, kCommandFile);
+    const fs::path file = FindMeasurable(options, rig_case, folder);
     measured = file.extension() == ".png" ? MeasureImage(rig_case, file, folder)
                                           : MeasureSpheres(options, rig_case, file, folder);
     measured.files.push_back(file);

@@ -277,6 +277,24 @@ TEST_F(CommandEngineTest, TemplatesArePlainFiles) {
   }
 }
 
+// The first won, whatever the second said.
+TEST_F(CommandEngineTest, NumbersInTwoFilesAreRefused) {
+  std::ofstream(root_ / "scalars.json") << R"({"runout_m": 0.25})";
+  EXPECT_EQ(ReadScalars(root_).size(), 1u);
+  std::ofstream(root_ / "scalars.csv") << "runout_m,0.5\n";
+  EXPECT_THAT(FailureOf([&] { ReadScalars(root_); }), HasSubstr("left both"));
+}
+
+TEST_F(CommandEngineTest, OfNumbersOnlyTheirFilesAreNamedWhereTheyAreMissing) {
+  Deck("run.sh", "echo finished\n");
+  rigs::Case rig_case = SmallCase();
+  rig_case.rig.kind = rigs::RigKind::kTappedDensity;
+  rig_case.frame.reset();
+  const std::string failure = FailureOf([&] { Run(rig_case); });
+  EXPECT_THAT(failure, HasSubstr("left neither scalars.json nor scalars.csv"));
+  EXPECT_THAT(failure, HasSubstr("its log ends with: finished"));
+}
+
 TEST_F(CommandEngineTest, ProgramMayBeATemplateItself) {
   Deck("run", "#!/bin/sh\nprintf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
   options_.command = {"./run"};
