@@ -46,6 +46,17 @@ double Campaign::Elapsed() const {
 }
 
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
+  try {
+    return GoOn(interrupt);
+  } catch (const base::Interrupted&) {
+    throw;
+  } catch (const base::Error& error) {  // `talus status` is asked later, and elsewhere
+    NoteError(error.what());
+    throw;
+  }
+}
+
+CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   if (!StayEnded()) NoteProgress();
   RunFailedAgain();
   TellFinished();

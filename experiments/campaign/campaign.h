@@ -61,6 +61,7 @@ class Campaign {
     std::optional<imaging::GrayImage> profile;  // of one that succeeded, where it leaves one
   };
 
+  CampaignEnd GoOn(const base::InterruptGuard& interrupt);
   bool StayEnded();
   void RunFailedAgain();
   void TellFinished();
@@ -92,6 +93,7 @@ class Campaign {
   void NoteProgress();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
+  void NoteError(const std::string& error);
   void WriteResult(journal::ProgressRecord& progress);
   void NoteBest(const journal::TrialRecord& trial);
   // Names the trial's experiment, where trials differ by experiment or scale factor.
