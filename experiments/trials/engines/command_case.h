@@ -29,7 +29,8 @@ struct CommandCase {
 std::string CaseText(const CommandCase& command_case);
 
 // Reads, completes and validates a case with all that can be known of its command, and notes which
-// templates it has; throws one ConfigError with everything that is wrong.
+// templates it has, which may have been moved together with it; throws one ConfigError with
+// everything that is wrong.
 CommandCase LoadCommandCase(const base::JsonFile& file);
 
 // The bulk test of a case.json, whatever simulates it: the engine is neither looked for nor

@@ -277,6 +277,23 @@ TEST_F(CommandEngineTest, TemplatesArePlainFiles) {
   }
 }
 
+// Its case has the templates by the absolute path that they had.
+TEST_F(CommandEngineTest, ATrialIsSimulatedAgainWhereItWasMovedTogetherWithItsTemplates) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  options_.templates_hash = TemplateFolder(*options_.templates).Hash();
+  Run();
+  const fs::path moved = root_ / "moved";
+  fs::create_directories(moved / "run/trials");
+  fs::rename(root_ / "trial", moved / "run/trials/0001");
+  fs::rename(root_ / "deck", moved / "deck");
+  const auto load = [&] {
+    return LoadCommandCase(base::ReadJsonFile(moved / "run/trials/0001/case.json"));
+  };
+  EXPECT_EQ(load().engine.templates, moved / "deck");
+  std::ofstream(moved / "deck/run.sh") << "true\n";  // another deck is not taken for it
+  EXPECT_THROW(load(), base::ConfigError);
+}
+
 // The first won, whatever the second said.
 TEST_F(CommandEngineTest, NumbersInTwoFilesAreRefused) {
   std::ofstream(root_ / "scalars.json") << R"({"runout_m": 0.25})";
