@@ -253,10 +253,17 @@ void Campaign::Collect(journal::TrialRecord& trial) {
     FailOrRetry(trial, error.what());
     return;
   }
+  SayDoubt(trial, output.doubt);
   RequireNumbers(trial, ReferenceOf(trial), output.scalars);
   std::optional<imaging::GrayImage> profile;
   if (ReferenceOf(trial).has_image()) profile = std::move(output.profile);
   Keep(trial, std::move(profile));
+}
+
+// Once: it is of the deck, and other trials have the same in other digits.
+void Campaign::SayDoubt(const journal::TrialRecord& trial, const std::string& doubt) {
+  if (doubt.empty() || std::exchange(has_doubted_, true)) return;
+  console_.Line("warning: trial " + std::to_string(trial.id) + ": " + doubt);
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {

@@ -84,6 +84,7 @@ class Campaign {
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
   void Collect(journal::TrialRecord& trial);
+  void SayDoubt(const journal::TrialRecord& trial, const std::string& doubt);
   void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);
   void Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile);
   bool TellEnded();
@@ -119,6 +120,7 @@ class Campaign {
   std::vector<EndedTrial> ended_;                        // to be told, in their turn
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
   std::set<std::int64_t> stale_;                         // running, by an engine that was mended
+  bool has_doubted_ = false;                             // the set-up, in this session
   std::string trouble_;                                  // of the queue, as last told
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;

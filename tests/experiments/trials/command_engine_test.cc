@@ -294,6 +294,24 @@ TEST_F(CommandEngineTest, ATrialIsSimulatedAgainWhereItWasMovedTogetherWithItsTe
   EXPECT_THROW(load(), base::ConfigError);
 }
 
+// Such a trial succeeded, and its parameters were taken for those of the spec's powder.
+TEST_F(CommandEngineTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
+  const auto output_of = [&](const char* radius, int count) {
+    std::string text = "x,y,z,r\n";
+    for (int i = 0; i < count; ++i) text += "0,0," + std::to_string(i) + "e-3," + radius + "\n";
+    fs::remove_all(root_ / "trial");
+    Deck("run.sh", "printf '" + text + "' >heap.csv\n");
+    Run();
+    return CommandEngine(options_).Collect(SmallCase(), root_ / "trial").doubt;
+  };
+  EXPECT_EQ(output_of("0.5e-3", 76), "");
+  EXPECT_EQ(output_of("0.5e-3", 20), "");  // the others have left the box
+  EXPECT_THAT(output_of("1e-3", 3), HasSubstr("2 times as large; does the deck take {{ mean"));
+  EXPECT_THAT(output_of("0.5e-3", 100), HasSubstr("does the deck take {{ num_grains }}"));
+  EXPECT_THAT(FailureOf([&] { output_of("0.5e-4", 3); }),
+              HasSubstr("1/10 of that; is engine.length_unit right"));
+}
+
 // The first won, whatever the second said.
 TEST_F(CommandEngineTest, NumbersInTwoFilesAreRefused) {
   std::ofstream(root_ / "scalars.json") << R"({"runout_m": 0.25})";
