@@ -48,6 +48,16 @@ void FollowMovedTemplates(const fs::path& case_file, CommandOptions& engine) {
   }
 }
 
+// A campaign's `engine` pasted into a case says its kind, of which a case has one only.
+base::JsonFile WithoutKind(base::JsonFile file) {
+  if (!file.root.is_object() || !file.root.contains("engine")) return file;
+  auto& engine = file.root["engine"];
+  if (engine.is_object() && engine.contains("kind") && engine["kind"] == "command") {
+    engine.erase("kind");
+  }
+  return file;
+}
+
 }  // namespace
 
 std::string CaseText(const CommandCase& command_case) {
@@ -55,7 +65,7 @@ std::string CaseText(const CommandCase& command_case) {
 }
 
 CommandCase LoadCommandCase(const base::JsonFile& file) {
-  auto command_case = base::LoadOptions<CommandCase>(file);
+  auto command_case = base::LoadOptions<CommandCase>(WithoutKind(file));
   auto& [heap, engine] = command_case;
   FollowMovedTemplates(file.path, engine);
   rigs::CompleteCase(heap);
@@ -76,13 +86,13 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
 rigs::Case LoadAnyCase(const std::filesystem::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   if (!file.root.is_object() || !file.root.contains("engine")) return rigs::LoadCase(file);
-  return rigs::Completed(base::LoadOptions<CommandCase>(file).heap, file);
+  return rigs::Completed(base::LoadOptions<CommandCase>(WithoutKind(file)).heap, file);
 }
 
 std::optional<CommandOptions> EngineOfCase(const std::filesystem::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   if (!file.root.is_object() || !file.root.contains("engine")) return std::nullopt;
-  return base::LoadOptions<CommandCase>(file).engine;
+  return base::LoadOptions<CommandCase>(WithoutKind(file)).engine;
 }
 
 }  // namespace talus::trials
