@@ -25,6 +25,17 @@ constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and t
   throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
 }
 
+// `is_settled`: trials have succeeded with the deck, so that it can no more be mended.
+[[noreturn]] void StopForNumber(const journal::TrialRecord& trial, const std::string& missing,
+                                bool is_settled) {
+  throw base::Error("trial " + std::to_string(trial.id) + " " + missing +
+                    (is_settled ? ". Let the engine leave it under this name "
+                                  "(docs/foreign_engines.md) in another campaign: trials have "
+                                  "succeeded with this one's deck"
+                                : ". Let the engine leave it under this name "
+                                  "(docs/foreign_engines.md) and `talus resume`"));
+}
+
 }  // namespace
 
 Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
@@ -254,7 +265,11 @@ void Campaign::Collect(journal::TrialRecord& trial) {
     return;
   }
   SayDoubt(trial, output.doubt);
-  RequireNumbers(trial, ReferenceOf(trial), output.scalars);
+  if (const auto missing = MissingNumber(ReferenceOf(trial), output.scalars)) {
+    const bool any = std::ranges::count(planner_.trials(), journal::TrialStatus::kOk,
+                                        &journal::TrialRecord::status) > 0;
+    StopForNumber(trial, *missing, any && spec_.engine.kind == EngineKind::kCommand);
+  }
   std::optional<imaging::GrayImage> profile;
   if (ReferenceOf(trial).has_image()) profile = std::move(output.profile);
   Keep(trial, std::move(profile));
