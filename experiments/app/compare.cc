@@ -1,5 +1,6 @@
 // talus compare
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "base/files/output_folder.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/shell_text.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
@@ -16,6 +18,7 @@
 #include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
+#include "experiments/journal/journal.h"
 
 namespace talus::app {
 namespace {
@@ -29,6 +32,17 @@ struct CompareArguments {
   std::string experiment;
   int add_simulations = 20;
 };
+
+// An objective is of an image: of numbers alone every one of them searches the same way.
+void RequireImages(const std::filesystem::path& folder) {
+  const journal::CampaignRecord record =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign();
+  const auto has_image = [](const journal::ExperimentRecord& e) { return !e.aehp_png.empty(); };
+  if (std::ranges::any_of(record.experiments, has_image)) return;
+  throw base::ConfigError("--objective: is of an image, and " + folder.string() +
+                          " has numbers only, which are met by their errors; `talus resume " +
+                          base::ShellWord(folder.string()) + " --add-simulations N` searches on");
+}
 
 void SearchOn(const CompareArguments& arguments) {
   GoOn(arguments.campaign,
@@ -84,6 +98,7 @@ void RunCompare(CompareArguments arguments) {
     throw base::ConfigError("--matters: is for batches; give the folders of two campaigns or more");
   }
   arguments.campaign = arguments.folders.front();
+  if (!arguments.objective.empty()) RequireImages(arguments.campaign);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
   analysis::Evidence evidence = analysis::GatherEvidence(arguments.campaign, arguments.experiment);
   base::ClaimOutputFolder(arguments.out, "compare");

@@ -49,6 +49,7 @@ Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOpt
   campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
   campaign::CampaignParts parts = campaign::MakeParts(opened.spec, opened.folder.root);
   parts.goal = GoalOf(opened.spec, opened.folder.root);
+  parts.engine_is_new = opened.engine_is_new;
   campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
                               opened.spec, std::move(parts), console);
   const campaign::CampaignEnd end = campaign.Run(interrupt);

@@ -1,6 +1,7 @@
 // talus validate
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/analysis/design/design_cost.h"
@@ -27,6 +29,7 @@
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/optimize/optimize_problem.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::app {
 namespace {
@@ -105,6 +108,36 @@ journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
   }
 }
 
+// "lmp -in in.heap, templates in /a/deck, leaves heap.dump".
+void PrintEngine(const trials::CommandOptions& engine) {
+  std::cout << "  engine            " << base::Joined(engine.command, " ") << ", templates in "
+            << engine.templates->string() << ", leaves " << engine.result << '\n';
+}
+
+// How long a trial of another engine takes only a trial tells.
+void PrintForeignCost(const campaign::CampaignSpec& spec) {
+  std::cout << "  cost              ";
+  if (spec.budget.simulations > 0) {
+    std::cout << base::Counted(spec.budget.simulations, "simulation") << " and at most "
+              << spec.confirm.MostTrials() << " to confirm";
+  } else {
+    std::cout << trials::DurationText(spec.budget.core_time.value_or(0)) << " of core time";
+  }
+  std::cout << ", a trial at most " << trials::DurationText(spec.trial_time_cap)
+            << " (trial_time_cap); how long one takes is not known before one has run\n";
+}
+
+// Slurm counts in whole minutes.
+void WarnOfMinutes(const campaign::CampaignSpec& spec) {
+  constexpr double kMinute = 60;  // [s]
+  if (spec.runner.kind != campaign::RunnerKind::kSlurm) return;
+  const double limit = spec.runner.slurm.time.value_or(spec.trial_time_cap);
+  const double minutes = std::ceil(limit / kMinute);
+  if (!(limit > 0) || minutes * kMinute == limit) return;
+  std::cout << "  warning: the limit of a trial, " << trials::DurationText(limit) << ", is "
+            << base::ShortNumber(minutes) << " min on Slurm, which counts in whole minutes\n";
+}
+
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   const campaign::CampaignSpec spec = campaign::ReadSpecWithPosteriors(file);
   analysis::CheckGoal(spec, file);
@@ -125,7 +158,11 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
     for (const std::string& warning : campaign::EstimateWarnings(spec, estimate)) {
       std::cout << "  warning: " << warning << '\n';
     }
+  } else {
+    PrintEngine(spec.engine.command);
+    PrintForeignCost(spec);
   }
+  WarnOfMinutes(spec);
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';
   }
@@ -174,8 +211,9 @@ void ValidateDesign(const base::JsonFile& file, bool) {
 }
 
 void ValidateCommandCase(const base::JsonFile& file, bool) {
-  trials::LoadCommandCase(file);
+  const trials::CommandCase command_case = trials::LoadCommandCase(file);
   std::cout << file.path.string() << ": is a case of another engine in order\n";
+  PrintEngine(command_case.engine);
 }
 
 // What a file is: by a key that only it has. The order matters: a campaign has a powder, too,

@@ -25,6 +25,17 @@ constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and t
   throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
 }
 
+// `is_settled`: trials have succeeded with the deck, so that it can no more be mended.
+[[noreturn]] void StopForNumber(const journal::TrialRecord& trial, const std::string& missing,
+                                bool is_settled) {
+  throw base::Error("trial " + std::to_string(trial.id) + " " + missing +
+                    (is_settled ? ". Let the engine leave it under this name "
+                                  "(docs/foreign_engines.md) in another campaign: trials have "
+                                  "succeeded with this one's deck"
+                                : ". Let the engine leave it under this name "
+                                  "(docs/foreign_engines.md) and `talus resume`"));
+}
+
 }  // namespace
 
 Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
@@ -46,6 +57,17 @@ double Campaign::Elapsed() const {
 }
 
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
+  try {
+    return GoOn(interrupt);
+  } catch (const base::Interrupted&) {
+    throw;
+  } catch (const base::Error& error) {  // `talus status` is asked later, and elsewhere
+    NoteError(error.what());
+    throw;
+  }
+}
+
+CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   if (!StayEnded()) NoteProgress();
   RunFailedAgain();
   TellFinished();
@@ -201,6 +223,11 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (found == running_.end()) return;
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
+  if (stale_.erase(trial.id) > 0) {  // however it has ended, it was the former engine's
+    ++reruns_[trial.id];
+    waiting_.push_back(std::move(trial));
+    return;
+  }
   if (job.duration > 0) trial.duration_s = job.duration;
   if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;
@@ -237,10 +264,21 @@ void Campaign::Collect(journal::TrialRecord& trial) {
     FailOrRetry(trial, error.what());
     return;
   }
-  RequireNumbers(trial, ReferenceOf(trial), output.scalars);
+  SayDoubt(trial, output.doubt);
+  if (const auto missing = MissingNumber(ReferenceOf(trial), output.scalars)) {
+    const bool any = std::ranges::count(planner_.trials(), journal::TrialStatus::kOk,
+                                        &journal::TrialRecord::status) > 0;
+    StopForNumber(trial, *missing, any && spec_.engine.kind == EngineKind::kCommand);
+  }
   std::optional<imaging::GrayImage> profile;
   if (ReferenceOf(trial).has_image()) profile = std::move(output.profile);
   Keep(trial, std::move(profile));
+}
+
+// Once: it is of the deck, and other trials have the same in other digits.
+void Campaign::SayDoubt(const journal::TrialRecord& trial, const std::string& doubt) {
+  if (doubt.empty() || std::exchange(has_doubted_, true)) return;
+  console_.Line("warning: trial " + std::to_string(trial.id) + ": " + doubt);
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
@@ -340,12 +378,14 @@ void Campaign::ShowStatus() {
   const BudgetUse use =
       UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()),
             planner_.goal() ? planner_.goal()->core_time : 0);
+  const int num_waiting = parts_.runner->NumWaiting();
   CampaignProgress progress{.num_search = use.num_search,
                             .num_confirm = use.num_confirm,
                             .budget = spec_.budget.simulations,
                             .used = UseText(spec_.budget, use, Elapsed()),
                             .core_seconds_budget = spec_.budget.core_time,
-                            .num_running = static_cast<int>(running_.size()),
+                            .num_running = static_cast<int>(running_.size()) - num_waiting,
+                            .num_waiting = num_waiting,
                             .unit = std::string(journal::InfoOf(spec_.objective).unit),
                             .seconds_left = use.seconds_left};
   if (spec_.budget.core_time) progress.core_seconds = use.core_seconds;

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct CampaignParts {
   std::unique_ptr<runners::Runner> runner;
   std::unique_ptr<trials::TrialEngine> engine;
   std::unique_ptr<GoalJudge> goal{};  // of a spec with a goal
+  // Whether the engine has been mended since the last session: all that was begun is run again.
+  bool engine_is_new = false;
 };
 
 enum class CampaignEnd { kFinished, kInterrupted, kFailed };
@@ -58,6 +61,7 @@ class Campaign {
     std::optional<imaging::GrayImage> profile;  // of one that succeeded, where it leaves one
   };
 
+  CampaignEnd GoOn(const base::InterruptGuard& interrupt);
   bool StayEnded();
   void RunFailedAgain();
   void TellFinished();
@@ -80,6 +84,7 @@ class Campaign {
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
   void Collect(journal::TrialRecord& trial);
+  void SayDoubt(const journal::TrialRecord& trial, const std::string& doubt);
   void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);
   void Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile);
   bool TellEnded();
@@ -89,6 +94,7 @@ class Campaign {
   void NoteProgress();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
+  void NoteError(const std::string& error);
   void WriteResult(journal::ProgressRecord& progress);
   void NoteBest(const journal::TrialRecord& trial);
   // Names the trial's experiment, where trials differ by experiment or scale factor.
@@ -113,6 +119,8 @@ class Campaign {
   std::deque<journal::TrialRecord> waiting_;             // to be run, when there is room
   std::vector<EndedTrial> ended_;                        // to be told, in their turn
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
+  std::set<std::int64_t> stale_;                         // running, by an engine that was mended
+  bool has_doubted_ = false;                             // the set-up, in this session
   std::string trouble_;                                  // of the queue, as last told
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;

@@ -15,10 +15,11 @@ namespace talus::campaign {
 // Folders first: a session that ends in between does all of it again.
 void Campaign::RunFailedAgain() {
   std::vector<journal::TrialRecord> trials = journal_.Trials();
-  if (!HaveFirstAllFailed(trials)) return;
+  if (!parts_.engine_is_new && !HaveFirstAllFailed(trials)) return;
   std::erase_if(trials, [](const journal::TrialRecord& trial) {
     return trial.status != journal::TrialStatus::kFailed;
   });
+  if (trials.empty()) return;
   console_.Line("all " + std::to_string(trials.size()) + " trials have failed (" +
                 trials.back().reason + "): they are run again");
   for (const journal::TrialRecord& trial : trials) {
@@ -43,6 +44,9 @@ void Campaign::TakeUpRunning() {
     if (trial.status != journal::TrialStatus::kRunning) continue;
     if (parts_.runner->Adopt(JobOf(trial), trial.job)) {
       running_[trial.id] = trial;
+      if (!parts_.engine_is_new) continue;
+      stale_.insert(trial.id);
+      parts_.runner->Cancel(trial.id);
     } else {
       waiting_.push_back(trial);
     }

@@ -1,6 +1,7 @@
 // When a search or a session ends: it is noted, and stays so; what was found is written.
 #include <cstdint>
 
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_writer.h"
 #include "base/text/shell_text.h"
@@ -67,6 +68,19 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
   if (result_) return CampaignEnd::kFinished;
   console_.Line("no result: " + progress.stop_reason);
   return CampaignEnd::kFailed;
+}
+
+void Campaign::NoteError(const std::string& error) {
+  console_.Note("an error ended it: " + error);
+  try {
+    journal_.SetProgress({.state = "interrupted",
+                          .stop_reason = "an error ended it: " + error,
+                          .elapsed_s = Elapsed(),
+                          .result_json = {},
+                          .stop_json = stop_json_});
+  } catch (const base::Error&) {
+    // A full disk, say, which is the error itself: the first is the one to be told.
+  }
 }
 
 void Campaign::WriteResult(journal::ProgressRecord& progress) {

@@ -14,6 +14,7 @@
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/start.h"
 #include "experiments/campaign/take_over.h"
+#include "experiments/trials/engines/command_case.h"
 
 namespace talus::campaign {
 namespace {
@@ -48,6 +49,21 @@ std::optional<std::string> WhyNotAt(double scale_factor, const Reuser& reuser,
   }
 }
 
+// A folder of another kind of engine is neither whole nor readable to the engine here.
+std::optional<std::string> WhyNotByEngine(const Reuser& reuser, const FormerTrial& former) {
+  const bool is_command_here = reuser.spec.engine.kind == EngineKind::kCommand;
+  const std::string here = is_command_here ? "another engine simulates" : "talus itself simulates";
+  try {
+    const auto engine = trials::EngineOfCase(former.folder / "case.json");
+    if (engine.has_value() == is_command_here) return std::nullopt;
+    return (engine ? "it was run by another engine, \"" + base::Joined(engine->command, " ") + "\""
+                   : std::string("it was run by talus itself")) +
+           "; here " + here;
+  } catch (const base::Error&) {
+    return std::nullopt;  // its folder is not whole, which is told of it anyway
+  }
+}
+
 // All trials of a test have one case but for what is searched, so the first that can be read tells.
 Match MatchOf(const Reuser& reuser, const NewExperiment& experiment, const FormerTest& test) {
   if (test.trials.empty()) return {.why_not = "none of its simulations has succeeded"};
@@ -55,6 +71,7 @@ Match MatchOf(const Reuser& reuser, const NewExperiment& experiment, const Forme
     return {.why_not = "searched there: " + NamesText(test.parameters) +
                        "; here: " + NamesText(SearchedParameters(reuser.spec))};
   }
+  if (auto other = WhyNotByEngine(reuser, test.trials.front())) return {.why_not = other};
   for (const FormerTrial& former : test.trials) {
     if (!reuser.engine.IsComplete(former.folder)) continue;
     Match match{.why_not = WhyNotAt(former.scale_factor, reuser, experiment, former)};

@@ -16,6 +16,7 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/mended_engine.h"
 #include "experiments/campaign/record/heap_mass.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/reuse.h"
@@ -103,6 +104,7 @@ struct SpecChange {
   std::string text;   // as the user wrote it
   std::string event;  // its kind; empty when nothing changes
   std::string words;
+  bool engine_is_new = false;  // a mended one, with which no trial has been run
 };
 
 // Templates that are not where they were, as after the whole project has been moved: they are
@@ -141,8 +143,17 @@ void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& wr
   read.experiment.reset();
 }
 
+// No trial has succeeded with the one before.
+void NoteMendedEngine(SpecChange& change) {
+  change.engine_is_new = true;
+  change.event = "engine";
+  change.words += (change.words.empty() ? "" : ", ") +
+                  std::string("its engine has changed, with which no trial had succeeded");
+}
+
 // The spec as it is to be from now on; says what has changed where that is not allowed.
-SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path& root,
+SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
+                          const std::vector<journal::TrialRecord>& trials, const fs::path& root,
                           const ResumeOptions& options) {
   const bool named = !options.spec.empty();
   const fs::path path = named ? options.spec : fs::path(record.spec_path);
@@ -151,6 +162,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path&
   if (change.text == record.spec_text) {
     change.spec = ParseSpecText(record.spec_json);
     FollowTemplates(record, root, options.spec, change);
+    if (TakeMendedTemplates(trials, change.spec)) NoteMendedEngine(change);
     return change;
   }
   const CampaignSpec begun = ParseSpecText(record.spec_json);
@@ -161,7 +173,8 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path&
   KeepAddedParameters(begun, change.spec);
   KeepWhatWasGiven(base::ParseJson(record.spec_text, record.spec_path).root, file.root, begun,
                    change.spec);
-  const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
+  auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
+  const bool engine_is_new = AllowMendedEngine(trials, forbidden);
   if (!forbidden.empty()) {
     std::string message = path.string() +
                           ": has changed since the campaign began, in what its trials depend on; "
@@ -171,6 +184,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path&
   }
   change.event = "spec";
   change.words = "changed in budget, workers or other things that may change";
+  if (engine_is_new) NoteMendedEngine(change);
   return change;
 }
 
@@ -342,7 +356,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (fs::exists(folder.campaign())) AdoptCopies(folder);
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
-  SpecChange change = SpecToGoOnWith(record, folder.root, options);
+  SpecChange change = SpecToGoOnWith(record, journal.Trials(), folder.root, options);
   AddParameters(options.search, change);
   const int num_more = options.add_simulations > 0 || options.search.empty()
                            ? options.add_simulations
@@ -366,7 +380,8 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   return {.folder = folder,
           .lock = std::move(lock),
           .journal = std::move(journal),
-          .spec = std::move(spec)};
+          .spec = std::move(spec),
+          .engine_is_new = change.engine_is_new};
 }
 
 }  // namespace talus::campaign

@@ -56,6 +56,7 @@ struct OpenedCampaign {
   CampaignLock lock;
   journal::Journal journal;
   CampaignSpec spec;
+  bool engine_is_new = false;  // mended_engine.h; CampaignParts is to be told
 };
 OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
                             Console& console);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/plan/stop.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -86,16 +88,59 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
   return text;
 }
 
-std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
-  std::map<std::string, int> reasons;
-  for (const journal::TrialRecord& trial : trials) {
-    if (trial.status == journal::TrialStatus::kFailed) ++reasons[trial.reason];
-  }
-  std::string text;
-  for (const auto& [reason, count] : reasons) {
-    text += "    " + std::to_string(count) + " × " + reason + "\n";
+// Reasons quote several lines of a log.
+std::string Indented(std::string text, std::size_t blanks) {
+  for (auto at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+    text.insert(at + 1, blanks, ' ');
   }
   return text;
+}
+
+// One for each run of digits: reasons that differ in seeds, times and folders are one and the same.
+std::string WithoutNumbers(const std::string& reason) {
+  std::string text;
+  for (const char c : reason) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0)
+      text += c;
+    else if (text.empty() || text.back() != '#')
+      text += '#';
+  }
+  return text;
+}
+
+struct Failures {
+  std::string first;  // reason
+  int count = 0;
+  bool differ = false;  // in their numbers
+};
+
+std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
+  std::map<std::string, Failures> reasons;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status != journal::TrialStatus::kFailed) continue;
+    Failures& failures = reasons[WithoutNumbers(trial.reason)];
+    if (failures.count++ == 0) failures.first = trial.reason;
+    failures.differ |= trial.reason != failures.first;
+  }
+  std::string text;
+  for (const auto& [kind, failures] : reasons) {
+    const std::string count = std::to_string(failures.count) + " × ";
+    text += "    " + count + Indented(failures.first, 4 + count.size() - 1) +
+            (failures.differ ? " (the numbers differ)" : "") + "\n";
+  }
+  return text;
+}
+
+// In words: where there is no result, why "finished" would mislead.
+std::string StateText(const journal::ProgressRecord& progress, bool alive,
+                      const std::vector<journal::TrialRecord>& trials) {
+  if (progress.state == "running" && !alive) {
+    return "ended without a word; `talus resume DIR` goes on";
+  }
+  if (progress.state != "finished" || !progress.result_json.empty()) return progress.state;
+  return HaveFirstAllFailed(trials) ? "ended without a result; mend the cause, and `talus resume "
+                                      "DIR` runs the failed trials again"
+                                    : "ended without a result";
 }
 
 }  // namespace
@@ -110,15 +155,14 @@ std::string StatusText(const std::filesystem::path& root) {
   const Counts counts(trials);
   const bool alive = IsWorkedOn(folder.root);
 
-  std::string state = progress.state;
-  if (state == "running" && !alive) state = "ended without a word; `talus resume DIR` goes on";
   std::optional<Answer> answer;
   if (!progress.result_json.empty()) answer = ParseAnswer(progress.result_json);
   const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
-  std::string text = campaign.name + ": " + WithFolder(state, root) + "\n";
+  std::string text =
+      campaign.name + ": " + WithFolder(StateText(progress, alive, trials), root) + "\n";
   // With an answer its alarms say it.
   if (!progress.stop_reason.empty() && !(answer && answer->unsettled))
-    text += "  because           " + progress.stop_reason + "\n";
+    text += "  because           " + Indented(progress.stop_reason, 20) + "\n";
   text += "  trials            " + std::to_string(searched) + " (" +
           std::to_string(counts.by_kind[0]) + " for the noise, " +
           std::to_string(counts.by_kind[1]) + " of the design, " +
@@ -143,7 +187,7 @@ std::string StatusText(const std::filesystem::path& root) {
                               goal ? goal->core_time : 0);
   if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
-  if (!answer && use.seconds_left) {
+  if (!answer && progress.state != "finished" && use.seconds_left) {
     text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";
   }
   if (answer) text += "\n" + AnswerSummary(*answer, root);

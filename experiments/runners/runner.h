@@ -80,6 +80,9 @@ class Runner {
   // Why jobs that were taken on cannot be begun for now, in words; empty if nothing is the matter.
   virtual std::string Trouble() const { return ""; }
 
+  // Jobs that a queue has taken and has not begun yet, as far as is known.
+  virtual int NumWaiting() const { return 0; }
+
   // Takes back the jobs that a queue has not got yet, and returns their ids: Wait does not report
   // them.
   virtual std::vector<std::int64_t> TakeBackUnsent() { return {}; }

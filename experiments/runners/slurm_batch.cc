@@ -81,15 +81,18 @@ void AddJobs(std::ostream& out, const Batch& batch) {
   out << "esac\n";
 }
 
+constexpr const char* kInSetUp = "set-up";  // last word of a task's end that its set-up has made
+constexpr const char* kOfCommand = "end";   // … that its command has made
+
 // Functions of the script: the time [µs], also with a bash before version 5, and the file that says
-// how a task has ended: its status, its time [µs] and its processor time [ms].
+// how a task has ended: its status, its time [µs], its processor time [ms], and in what.
 void AddEnd(std::ostream& out, const Batch& batch) {
   out << "now() {\n"
       << "  if [ -n \"$EPOCHREALTIME\" ]; then echo \"${EPOCHREALTIME//[!0-9]/}\"\n"
       << "  else echo $(($(date +%s%N) / 1000)); fi\n"
       << "}\n"
       << "write_end() {\n"
-      << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) end >"
+      << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) $4 >"
       << kTaskEndFile << ".part\n"
       << "  mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
       << "}\n";
@@ -110,9 +113,9 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   AddJobs(out, batch);
   out << "cd \"$folder\" || exit 1\n";
   AddEnd(out, batch);
-  // A set-up that fails is none of the trial: it ends as a command that is not there does.
+  // A set-up that fails is none of the trial.
   out << "trap 'exit 143' TERM\n"
-      << "trap 'left=$?; [ $left -gt 128 ] || write_end 127 0 0' EXIT\n";
+      << "trap 'left=$?; [ $left -gt 128 ] || write_end $left 0 0 " << kInSetUp << "' EXIT\n";
   if (!options.modules.empty()) {
     out << "module load";
     for (const std::string& module : options.modules) out << ' ' << base::ShellQuoted(module);
@@ -130,7 +133,7 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   out << "stat=$(</proc/$$/stat)\n"
       << "fields=(${stat##*) })\n"
       << "cpu=$(((fields[13] + fields[14]) * 1000 / $(getconf CLK_TCK)))\n"
-      << "write_end $status $took $cpu\n"
+      << "write_end $status $took $cpu " << kOfCommand << "\n"
       << "log=" << base::ShellQuoted(TaskLog(stem, "").string()) << "\n"
       << "log=${log%.log}$task.log\n"
       << "[ -s \"$log\" ] || rm -f \"$log\"\n"
@@ -170,9 +173,10 @@ std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder) {
   std::string last;
   if (!(in >> end.batch >> end.task >> end.status >> end.duration >> end.cpu_time >> end.restarts >>
         end.host >> last) ||
-      last != "end") {
+      (last != kOfCommand && last != kInSetUp)) {
     return std::nullopt;
   }
+  end.in_set_up = last == kInSetUp;
   end.duration *= 1e-6;
   end.cpu_time *= 1e-3;
   return end;

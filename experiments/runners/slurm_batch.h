@@ -39,10 +39,11 @@ std::optional<Batch> ParseBatch(const std::string& script);
 struct TaskEnd {
   std::int64_t batch = 0;
   int task = 0;
-  int status = 0;       // of the command, 128 + n when it was ended by signal n
-  double duration = 0;  // [s] wall-clock
-  double cpu_time = 0;  // [s]
-  int restarts = 0;     // times that Slurm has requeued it
+  int status = 0;          // of the command, 128 + n when it was ended by signal n
+  bool in_set_up = false;  // whether the set-up has ended the script, before the command began
+  double duration = 0;     // [s] wall-clock
+  double cpu_time = 0;     // [s]
+  int restarts = 0;        // times that Slurm has requeued it
   std::string host;
 };
 inline constexpr const char* kTaskEndFile = ".slurm_end";

@@ -35,7 +35,8 @@ struct SlurmOptions {
     visit("qos", self.qos, {.doc = "default: the user's"});
     visit("time", self.time,
           {.dimension = Dimension::kTime,
-           .doc = "limit of a trial, > 0; default: the trial's time cap"});
+           .doc = "limit of a trial, > 0, rounded up to whole minutes; default: the trial's time "
+                  "cap"});
     visit("memory", self.memory, {.doc = "of a trial, as Slurm writes it: 2G"});
     visit("cores", self.cores, {.doc = "of a trial, or of each of its MPI ranks, >= 1"});
     visit("modules", self.modules, {.doc = "loaded with `module load` before a trial"});

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text/joined.h"
+#include "base/trimmed.h"
 #include "experiments/runners/tool.h"
 
 namespace talus::runners {
@@ -19,6 +21,13 @@ std::vector<std::string> Columns(const std::string& line) {
   return columns;
 }
 
+// 0 for what is none, such as "INVALID" of a job that has not run.
+double NumberOf(std::string_view text) {
+  double number = 0;
+  std::istringstream(std::string(text)) >> number;
+  return number;
+}
+
 // "1234_7" → "1234"
 std::string ArrayOf(const std::string& job) { return job.substr(0, job.find('_')); }
 
@@ -29,6 +38,23 @@ bool IsUnfinished(const SlurmState& state) {
       "PENDING",  "RUNNING",   "COMPLETING", "CONFIGURING", "SUSPENDED", "STOPPED",
       "RESIZING", "SIGNALING", "REQUEUED",   "REQUEUE_FED", "STAGE_OUT", "REQUEUE_HOLD"};
   return std::find(kUnfinished.begin(), kUnfinished.end(), state.name) != kUnfinished.end();
+}
+
+bool IsWaiting(const SlurmState& state) {
+  constexpr std::array<std::string_view, 5> kWaiting{"PENDING", "CONFIGURING", "REQUEUED",
+                                                     "REQUEUE_FED", "REQUEUE_HOLD"};
+  return std::find(kWaiting.begin(), kWaiting.end(), state.name) != kWaiting.end();
+}
+
+double ParseElapsed(std::string_view text) {
+  constexpr double kDay = 86400;  // [s]
+  const std::size_t dash = text.find('-');
+  const bool has_days = dash != std::string_view::npos;
+  const double days = has_days ? NumberOf(text.substr(0, dash)) : 0;
+  double seconds = 0;
+  std::istringstream parts{std::string(has_days ? text.substr(dash + 1) : text)};
+  for (std::string part; std::getline(parts, part, ':');) seconds = 60 * seconds + NumberOf(part);
+  return days * kDay + seconds;
 }
 
 SlurmState StateOf(const SlurmStates& states, const std::string& array, int task) {
@@ -47,7 +73,8 @@ SlurmStates ParseSqueue(std::string_view output) {
   for (std::string line; std::getline(lines, line);) {
     const auto columns = Columns(line);
     if (columns.size() < 2) continue;
-    states[columns[0]] = {columns[1], columns.size() > 2 ? columns[2] : ""};
+    states[columns[0]] = {columns[1], columns.size() > 2 ? columns[2] : "",
+                          columns.size() > 3 ? ParseElapsed(columns[3]) : 0};
   }
   return states;
 }
@@ -55,6 +82,7 @@ SlurmStates ParseSqueue(std::string_view output) {
 SlurmStates ParseSacct(std::string_view output) {
   SlurmStates states = ParseSqueue(output);
   for (auto& [job, state] : states) {
+    state.elapsed = ParseElapsed(std::exchange(state.reason, ""));  // its third column
     // "CANCELLED by 1000"
     const std::size_t space = state.name.find(' ');
     if (space == std::string::npos) continue;
@@ -95,24 +123,27 @@ bool SlurmQueue::HasNoJobs() const {
   return queue.ok() && queue.output.find_first_not_of(" \n") == std::string::npos;
 }
 
-std::optional<SlurmStates> SlurmQueue::States(const std::set<std::string>& jobs) const {
+StatesReply SlurmQueue::States(const std::set<std::string>& jobs) const {
   // Its own user's jobs, not a list of numbers: squeue fails when one of them is forgotten.
   const ToolResult queue =
-      RunTool({"squeue", "--me", "--states=all", "--noheader", "--array", "--format=%i|%T|%r"});
-  if (!queue.ok()) return std::nullopt;
+      RunTool({"squeue", "--me", "--states=all", "--noheader", "--array", "--format=%i|%T|%r|%M"});
+  if (!queue.ok()) {
+    const std::string said(base::Trimmed(queue.errors));
+    return {.states = std::nullopt, .error = said.empty() ? "it gave no answer" : said};
+  }
   SlurmStates states = ParseSqueue(queue.output);
   std::set<std::string> known;
   for (const auto& [job, state] : states) known.insert(ArrayOf(job));
   std::set<std::string> forgotten;
   std::set_difference(jobs.begin(), jobs.end(), known.begin(), known.end(),
                       std::inserter(forgotten, forgotten.end()));
-  if (forgotten.empty()) return states;
+  if (forgotten.empty()) return {.states = std::move(states), .error = {}};
   const ToolResult accounting =
       RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--array",
-               "--format=JobID,State", "--jobs=" + base::Joined(forgotten, ",")});
+               "--format=JobID,State,Elapsed", "--jobs=" + base::Joined(forgotten, ",")});
   // A cluster without accounting: what squeue has forgotten nobody knows.
   if (accounting.ok()) states.merge(ParseSacct(accounting.output));
-  return states;
+  return {.states = std::move(states), .error = {}};
 }
 
 std::string SlurmQueue::Find(const std::string& job_name) const {

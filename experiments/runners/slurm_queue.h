@@ -14,6 +14,7 @@ namespace talus::runners {
 struct SlurmState {
   std::string name;
   std::string reason;  // why it waits or ended: "Priority", "NonZeroExitCode"; may be empty
+  double elapsed = 0;  // that it has run for [s]; 0 where Slurm does not say
 };
 
 // The state we give a job that neither squeue nor sacct knows.
@@ -22,6 +23,9 @@ inline constexpr const char* kLost = "LOST";
 // Whether a job in this state may still run, perhaps again.
 bool IsUnfinished(const SlurmState& state);
 
+// Whether it waits to be begun, for the first time or again.
+bool IsWaiting(const SlurmState& state);
+
 // States by job: "1234_7" for task 7 of an array.
 using SlurmStates = std::map<std::string, SlurmState, std::less<>>;
 
@@ -29,14 +33,23 @@ using SlurmStates = std::map<std::string, SlurmState, std::less<>>;
 // "1234_[7-9]". LOST when there is none.
 SlurmState StateOf(const SlurmStates& states, const std::string& array, int task);
 
-// Lines of `squeue -o "%i|%T|%r"` and of `sacct -o JobID,State`; other lines are left out.
+// Lines of `squeue -o "%i|%T|%r|%M"` and of `sacct -o JobID,State,Elapsed`, where the last columns
+// may be missing; other lines are left out.
 SlurmStates ParseSqueue(std::string_view output);
 SlurmStates ParseSacct(std::string_view output);
+
+// Slurm's "1-02:03:04", "02:03:04" or "03:04" in seconds; 0 for anything else.
+double ParseElapsed(std::string_view text);
 
 struct SubmitReply {
   std::string job;         // the array's number; empty when it was refused
   std::string error;       // what sbatch says then
   bool try_again = false;  // the cluster did not answer, or is full for now
+};
+
+struct StatesReply {
+  std::optional<SlurmStates> states;  // a job that Slurm does not know is not in it
+  std::string error;                  // what squeue says where there are none
 };
 
 class SlurmQueue {
@@ -45,9 +58,9 @@ class SlurmQueue {
   SubmitReply Submit(const std::filesystem::path& script,
                      const std::filesystem::path& reply_file) const;
 
-  // What squeue, and for jobs it has forgotten sacct, say of `jobs` (array numbers). Nothing at all
-  // when Slurm does not answer; a job that neither knows is not in the answer.
-  std::optional<SlurmStates> States(const std::set<std::string>& jobs) const;
+  // What squeue, and for jobs it has forgotten sacct, say of `jobs` (array numbers). No states when
+  // Slurm does not answer.
+  StatesReply States(const std::set<std::string>& jobs) const;
 
   // The array's number of a job name; "" when Slurm knows none. Throws base::Error when it does not
   // answer: then nobody can tell.

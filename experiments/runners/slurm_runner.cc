@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <ctime>
 #include <random>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
+#include "base/text/name.h"
+#include "base/trimmed.h"
+#include "experiments/runners/slurm_end.h"
 #include "experiments/runners/slurm_verdict.h"
 
 namespace talus::runners {
@@ -36,6 +38,12 @@ std::string CampaignId(const fs::path& folder) {
   return base::ReadFile(file);
 }
 
+// What squeue shows of a job by default is the first 8 letters of its name.
+std::string NameOf(const fs::path& campaign) {
+  constexpr std::size_t kMost = 40;
+  return base::FileWord(campaign.lexically_normal().filename().string()).substr(0, kMost);
+}
+
 // A lock that the commands started meanwhile inherit: as long as one of them runs, a later process
 // waits for it, even if we were killed.
 class InheritedLock {
@@ -55,33 +63,6 @@ class InheritedLock {
   int descriptor_;
 };
 
-FinishedJob Finished(std::int64_t id, JobEnd end, std::string reason) {
-  FinishedJob finished;
-  finished.id = id;
-  finished.end = end;
-  finished.reason = std::move(reason);
-  return finished;
-}
-
-// How the command ended, as its own script says.
-FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
-  constexpr int kNoCommand = 127;
-  FinishedJob finished = Finished(id, JobEnd::kExit, "exit status " + std::to_string(end.status));
-  finished.exit_status = end.status;
-  finished.duration = end.duration;
-  finished.cpu_time = end.cpu_time;
-  finished.host = end.host;
-  if (end.status == kNoCommand) finished.end = JobEnd::kNotStarted;
-  if (end.status > 128) {
-    finished.end = JobEnd::kSignal;
-    finished.reason = "was ended by signal " + std::to_string(end.status - 128);
-  }
-  if (end.restarts > 0) {
-    finished.reason += ", after Slurm had requeued it " + std::to_string(end.restarts) + " times";
-  }
-  return finished;
-}
-
 // A network file system may show a new file late; listing the folder makes most of them look again.
 void LookAgain(const fs::path& folder) {
   std::error_code ignored;
@@ -94,16 +75,6 @@ std::optional<TaskEnd> EndOf(const Job& job, std::int64_t batch, int index) {
   return ours ? end : std::nullopt;
 }
 
-// The last line of what the set-up has said, if anything.
-std::string SetUpText(const std::string& log) {
-  std::string last;
-  std::istringstream lines(log);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) last = line;
-  }
-  return last.empty() ? "" : " of the set-up: " + last.substr(0, 200);
-}
-
 // By whatever names: through a link, with "./" before it.
 bool IsSameFolder(const fs::path& a, const fs::path& b) {
   std::error_code absent;
@@ -113,7 +84,10 @@ bool IsSameFolder(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 SlurmRunner::SlurmRunner(const SlurmOptions& options, const fs::path& campaign)
-    : options_(options), folder_(fs::absolute(campaign) / "slurm"), last_poll_(Clock::now()) {
+    : options_(options),
+      folder_(fs::absolute(campaign) / "slurm"),
+      name_(NameOf(folder_.parent_path())),
+      last_poll_(Clock::now()) {
   fs::create_directories(folder_);
   campaign_id_ = CampaignId(folder_);
   ReadRecords();
@@ -158,7 +132,7 @@ std::vector<std::string> SlurmRunner::Submit(std::span<const Job> jobs) {
 
 void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
   Batch batch{.number = ++last_batch_, .job_name = {}, .jobs = {}};
-  batch.job_name = "talus-" + campaign_id_ + "-" + std::to_string(batch.number);
+  batch.job_name = name_ + "-talus-" + campaign_id_ + "-" + std::to_string(batch.number);
   for (Task& task : tasks) {
     task.batch = batch.number;
     task.index = static_cast<int>(batch.jobs.size());
@@ -175,7 +149,7 @@ void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
 void SlurmRunner::SendBatch(std::int64_t batch) {
   const InheritedLock lock(folder_ / "lock");
   const SubmitReply reply = queue_.Submit(BatchFile(batch, ".sh"), BatchFile(batch, ".job"));
-  refusal_ = reply.try_again ? reply.error : "";
+  refusal_ = reply.try_again ? std::string(base::Trimmed(reply.error)) : "";
   std::vector<Task> refused;
   for (auto& [id, task] : tasks_) {
     if (task.batch != batch) continue;
@@ -247,7 +221,9 @@ bool SlurmRunner::Adopt(const Job& job, const std::string&) {
             .array = {},
             .requeues = submissions - 1};
   task.dropped = fs::exists(CancelMark(task));
-  if (!EndOf(job, task.batch, task.index)) {
+  if (const auto end = EndOf(job, task.batch, task.index)) {
+    if (NeverBegan(*end)) return false;  // whoever resumes has mended the set-up meanwhile
+  } else {
     task.array = ArrayOf(*batch);
     if (task.array.empty()) return false;
   }
@@ -284,7 +260,7 @@ void SlurmRunner::CollectEndFiles() {
   }
   for (const auto& [task, end] : ended) {
     FinishedJob finished = FinishedBy(task.job.id, end);
-    if (finished.end == JobEnd::kNotStarted) finished.reason += SetUpText(LogOf(task));
+    if (end.in_set_up) finished.reason += SetUpText(LogOf(task), LogFileOf(task).string());
     Report(task, std::move(finished));
   }
 }
@@ -294,11 +270,13 @@ void SlurmRunner::Poll() {
   for (const auto& [id, task] : tasks_) {
     if (!task.array.empty()) arrays.insert(task.array);
   }
-  const std::optional<SlurmStates> states = queue_.States(arrays);
-  if (!states) return;  // Slurm does not answer; the jobs go on without us
+  const StatesReply reply = queue_.States(arrays);
+  silence_ = reply.error;
+  if (!reply.states) return;  // Slurm does not answer; the jobs go on without us
   for (auto& [id, task] : tasks_) {
     if (task.array.empty()) continue;
-    const SlurmState state = StateOf(*states, task.array, task.index);
+    const SlurmState state = StateOf(*reply.states, task.array, task.index);
+    task.begun = !IsWaiting(state);
     if (IsUnfinished(state)) {
       task.ended.reset();
     } else if (!task.ended || task.ended->name != state.name) {
@@ -316,10 +294,14 @@ void SlurmRunner::JudgeEnded() {
   for (const std::int64_t id : ended) Judge(tasks_.at(id));
 }
 
+fs::path SlurmRunner::LogFileOf(const Task& task) const {
+  return TaskLog(BatchFile(task.batch, ""), std::to_string(task.index));
+}
+
 // What Slurm and the script's own set-up have said; Slurm's lines come last.
 std::string SlurmRunner::LogOf(const Task& task) const {
   constexpr std::size_t kEndOfLog = 65536;
-  return base::ReadTail(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)), kEndOfLog);
+  return base::ReadTail(LogFileOf(task), kEndOfLog);
 }
 
 // `task` is gone from the list when it was reported.
@@ -335,7 +317,9 @@ void SlurmRunner::Judge(Task task) {
              !task.job.command.empty()) {  // empty for an adopted job: its owner must run it again
     Requeue(task, verdict.reason);
   } else {
-    Report(task, Finished(task.job.id, verdict.end, verdict.reason));
+    FinishedJob finished = Finished(task.job.id, verdict.end, verdict.reason);
+    finished.duration = task.ended->elapsed;
+    Report(task, std::move(finished));
   }
 }
 
@@ -360,6 +344,10 @@ void SlurmRunner::Report(const Task& task, FinishedJob finished) {
   } else if (task.dropped && finished.end == JobEnd::kCancelled) {
     finished.end = JobEnd::kPreempted;
     finished.reason = "was dropped by an earlier process";
+  } else if (finished.end == JobEnd::kNotStarted && task.job.command.empty()) {
+    // Adopted: it waited in the queue with the set-up of then, which may have been mended.
+    finished.end = JobEnd::kPreempted;
+    finished.reason = "did not begin, by the set-up of an earlier process: " + finished.reason;
   }
   tasks_.erase(task.job.id);
   finished_.push_back(std::move(finished));
@@ -381,8 +369,14 @@ void SlurmRunner::Cancel(std::int64_t id) {
 std::string SlurmRunner::Trouble() const {
   const bool any =
       std::ranges::any_of(tasks_, [](const auto& t) { return t.second.array.empty(); });
-  if (!any || refusal_.empty()) return "";
-  return "sbatch: " + refusal_ + "; it is asked again and again";
+  if (any && !refusal_.empty()) return "sbatch: " + refusal_ + "; it is asked again and again";
+  if (silence_.empty()) return "";
+  return "squeue does not say how the jobs are: " + silence_ + "; it is asked again and again";
+}
+
+int SlurmRunner::NumWaiting() const {
+  return static_cast<int>(
+      std::ranges::count_if(tasks_, [](const auto& t) { return !t.second.begun; }));
 }
 
 std::vector<std::int64_t> SlurmRunner::TakeBackUnsent() {

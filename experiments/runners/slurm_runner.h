@@ -32,6 +32,7 @@ class SlurmRunner : public Runner {
   std::vector<FinishedJob> Wait(double seconds) override;
   void Cancel(std::int64_t id) override;
   std::string Trouble() const override;
+  int NumWaiting() const override;
   std::vector<std::int64_t> TakeBackUnsent() override;
 
  private:
@@ -46,6 +47,7 @@ class SlurmRunner : public Runner {
     int requeues = 0;     // by us
     std::string requeue_reason{};
     bool cancelled = false;
+    bool begun = false;    // as Slurm says
     bool dropped = false;  // cancelled by an earlier process, not for any fault of the job
     std::optional<SlurmState> ended{};  // what Slurm says, once it is final
     Clock::time_point ended_since{};
@@ -66,18 +68,21 @@ class SlurmRunner : public Runner {
   void Poll();
   void JudgeEnded();
   void Judge(Task task);
+  std::filesystem::path LogFileOf(const Task& task) const;
   std::string LogOf(const Task& task) const;
   void Requeue(Task task, const std::string& reason);
   void Report(const Task& task, FinishedJob finished);
 
   SlurmOptions options_;
   std::filesystem::path folder_;  // DIR/slurm
+  std::string name_;              // of the campaign's folder, first in the names of its jobs
   std::string campaign_id_;
   SlurmQueue queue_;
   std::int64_t last_batch_ = 0;
   std::map<std::int64_t, Batch> records_;  // of earlier processes, by number
   std::map<std::int64_t, Task> tasks_;     // unfinished, by job id
   std::string refusal_;                    // what sbatch said when it took the last one not yet
+  std::string silence_;                    // what squeue said when it did not answer last
   Clock::time_point last_poll_;
   std::vector<FinishedJob> finished_;
 };

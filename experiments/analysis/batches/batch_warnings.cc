@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/answer/standing_answer.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/rigs/case/case_text.h"
@@ -13,15 +15,22 @@ namespace {
 
 using campaign::JointView;
 
+// An experiment of one name in both, by its places.
+struct Pair {
+  int first = 0;
+  int batch = 0;
+};
+
 // What the two do otherwise with one set; empty if nothing.
-std::string OtherCase(const JointView& first, const JointView& batch, int experiment) {
+std::string OtherCase(const JointView& first, const JointView& batch, const Pair& experiment) {
   const auto num_free = static_cast<Eigen::Index>(first.space.Free().size());
   const std::vector<double> values = first.space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
   if (values.size() != batch.space.parameters.size()) return "";
-  const auto case_of = [&](const JointView& view) {
-    return campaign::CaseOf(view.spec, {.values = values, .experiment = experiment}, std::nullopt);
+  const auto case_of = [&](const JointView& view, int e) {
+    return campaign::CaseOf(view.spec, {.values = values, .experiment = e}, std::nullopt);
   };
-  return rigs::RunDifference(case_of(first), case_of(batch)).value_or("");
+  return rigs::RunDifference(case_of(first, experiment.first), case_of(batch, experiment.batch))
+      .value_or("");
 }
 
 std::string OtherScale(const JointView& first, const JointView& batch) {
@@ -32,12 +41,32 @@ std::string OtherScale(const JointView& first, const JointView& batch) {
          base::ShortNumber(here) + " here";
 }
 
+std::string EngineText(const campaign::EngineOptions& engine) {
+  if (engine.kind == campaign::EngineKind::kTalus) return "talus itself";
+  return "\"" + base::Joined(engine.command.command, " ") + "\"";
+}
+
 }  // namespace
+
+std::string OtherEngine(const JointView& first, const JointView& batch) {
+  const campaign::EngineOptions& there = first.spec.engine;
+  const campaign::EngineOptions& here = batch.spec.engine;
+  const bool same_engine = there.kind == here.kind && there.command.command == here.command.command;
+  if (same_engine && there.command.templates_hash == here.command.templates_hash) return "";
+  return batch.folder.root.string() + ": was simulated by " +
+         (same_engine ? "other templates of " : "another engine, ") + EngineText(here) + ", " +
+         first.folder.root.string() + " by " + (same_engine ? "its own" : EngineText(there)) +
+         ": parameters of one name need not mean the same, and a difference of them may come of it";
+}
 
 std::vector<std::string> AlarmsOf(const JointView& batch) {
   std::vector<std::string> texts;
   const auto answer = campaign::StandingAnswer(batch.folder.root);
-  if (!answer) return texts;
+  if (!answer) {
+    return {batch.folder.root.string() +
+            ": is not finished, so that its ranges may still change; `talus resume " +
+            base::ShellWord(batch.folder.root.string()) + "` goes on"};
+  }
   for (const campaign::Alarm& alarm : answer->warnings) {
     texts.push_back(batch.folder.root.string() + ": " +
                     campaign::WithFolder(campaign::AlarmText(alarm), batch.folder.root));
@@ -54,10 +83,13 @@ std::vector<std::string> OtherConditions(const JointView& first, const JointView
                     "; a difference of the parameters may come of it");
   };
   add(OtherScale(first, batch), "");
-  const std::size_t num_both =
-      std::min(first.record.experiments.size(), batch.record.experiments.size());
-  for (std::size_t e = 0; e < num_both; ++e) {
-    add(OtherCase(first, batch, static_cast<int>(e)), ", " + first.record.experiments[e].name);
+  for (const int e : first.All()) {
+    const std::string& name = first.NameOf(e);
+    const auto& others = batch.record.experiments;
+    const auto found = std::ranges::find(others, name, &journal::ExperimentRecord::name);
+    if (found == others.end()) continue;
+    add(OtherCase(first, batch, {.first = e, .batch = static_cast<int>(found - others.begin())}),
+        ", " + name);
   }
   return texts;
 }

@@ -9,11 +9,14 @@
 
 namespace talus::analysis {
 
-// The alarms of a campaign's answer; none where it has no answer yet.
+// The alarms of a campaign's answer; where it has no answer yet, that it has none.
 std::vector<std::string> AlarmsOf(const campaign::JointView& batch);
 
-// What a batch's trials do otherwise than the first one's with the same parameters: their powder,
-// device, models, rules, scale factor.
+// That the batch's trials were simulated by another engine, or by another deck of it; empty if not.
+std::string OtherEngine(const campaign::JointView& first, const campaign::JointView& batch);
+
+// What a batch's trials do otherwise than the first one's with the same parameters, in experiments
+// of the same name: their powder, device, models, rules, scale factor.
 std::vector<std::string> OtherConditions(const campaign::JointView& first,
                                          const campaign::JointView& batch);
 

@@ -104,14 +104,17 @@ struct BatchComparison {
   std::vector<BatchPictures> pictures{};
   std::vector<BatchNumber> numbers{};
   std::vector<BatchVerdict> verdicts{};  // of all but the first batch
-  std::vector<std::string> warnings{};   // what speaks against the comparison
+  // What must be known before anything else: batches that another engine has simulated.
+  std::vector<std::string> other_engines{};
+  std::vector<std::string> warnings{};  // what else speaks against the comparison
 
-  TALUS_FIELDS(batches, parameters, together, pictures, numbers, verdicts, warnings);
+  TALUS_FIELDS(batches, parameters, together, pictures, numbers, verdicts, other_engines, warnings);
 };
 
 // At least two folders. `matters` is the difference that counts of a parameter, by name and as text
 // with its unit; default: a tenth of the searched range of the first batch. Throws ConfigError
-// where the campaigns have searched different parameters, or a name is none of them.
+// where the campaigns have searched different parameters or are one and the same, or a name is none
+// of the parameters.
 BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders,
                                const std::map<std::string, std::string>& matters);
 

@@ -18,6 +18,9 @@ std::string InRange(const BatchRange& range) {
 
 std::string Verdicts(const BatchComparison& c) {
   std::string list = "<ul>\n";
+  for (const std::string& engine : c.other_engines) {
+    list += "<li>Warning: " + base::MarkupText(engine) + "</li>\n";
+  }
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     list += "<li><strong>" + base::MarkupText(c.batches[b]) +
             "</strong>: " + base::MarkupText(c.verdicts[b - 1].text) +

@@ -50,6 +50,7 @@ std::string DifferenceText(const BatchNumber& n) {
 
 std::string BatchesText(const BatchComparison& c) {
   std::string text = "compared with " + c.batches.front() + "\n";
+  for (const std::string& engine : c.other_engines) text += "  warning: " + engine + "\n";
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     text += "  " + c.batches[b] + ": " + c.verdicts[b - 1].text + "\n";
     for (const BatchParameter& p : c.parameters) {

@@ -297,6 +297,22 @@ PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
   return test;
 }
 
+namespace {
+
+// By whatever names: two that are one and the same show no difference of anything.
+void RequireOtherFolders(const std::vector<fs::path>& folders) {
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      std::error_code absent;
+      if (!fs::equivalent(folders[k], folders[i], absent)) continue;
+      throw base::ConfigError(folders[i].string() +
+                              ": is named twice; a batch is compared with another one");
+    }
+  }
+}
+
+}  // namespace
+
 BatchComparison CompareBatches(const std::vector<fs::path>& folders,
                                const std::map<std::string, std::string>& matters) {
   std::vector<Batch> batches;
@@ -307,6 +323,7 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
   }
   RequireSameParameters(batches);
   const std::vector<double> counts = MattersOf(batches.front(), matters);
+  RequireOtherFolders(folders);
   for (std::size_t b = 0; b < batches.size(); ++b) {
     batches[b].draws = DrawsOf(batches[b].view, b);
   }
@@ -336,7 +353,11 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
     comparison.warnings.insert(comparison.warnings.end(), more.begin(), more.end());
   };
   for (std::size_t b = 1; b < batches.size(); ++b) {
-    warn(OtherConditions(batches.front().view, batches[b].view));
+    const JointView& first = batches.front().view;
+    if (const std::string engine = OtherEngine(first, batches[b].view); !engine.empty()) {
+      comparison.other_engines.push_back(engine);
+    }
+    warn(OtherConditions(first, batches[b].view));
   }
   for (const Batch& batch : batches) warn(AlarmsOf(batch.view));
   return comparison;

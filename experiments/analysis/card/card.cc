@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
+#include "experiments/analysis/card/card_deck.h"
 #include "experiments/analysis/card/card_formats.h"
 #include "experiments/analysis/card/card_walls.h"
 #include "experiments/analysis/predict/draws.h"
@@ -80,6 +81,14 @@ Card PowderCard(const rigs::Case& rig_case) {
           .sizes = SizesOf(rig_case)};
 }
 
+std::vector<std::string> CalibratedNames(const campaign::CampaignSpec& spec) {
+  std::vector<std::string> names;
+  for (const optimizer::Parameter& p : campaign::SpaceOf(spec).parameters) {
+    if (!p.fixed) names.push_back(p.name);
+  }
+  return names;
+}
+
 // A set (all of the space's parameters, in its order) with the campaign's conditions and alarms.
 Card CardWith(const Finished& finished, const std::vector<double>& values,
               const std::filesystem::path& folder) {
@@ -92,7 +101,12 @@ Card CardWith(const Finished& finished, const std::vector<double>& values,
                           .scale_factor = result.conditions.scale_factor,
                           .experiment = static_cast<int>(card.tests.size())},
                          std::nullopt);
-    if (card.tests.empty()) card = PowderCard(rig_case);
+    if (card.tests.empty()) {
+      card = PowderCard(rig_case);
+      if (spec.engine.kind == campaign::EngineKind::kCommand) {
+        card.deck = DeckOf(spec.engine.command, rig_case, CalibratedNames(spec));
+      }
+    }
     AddTest(rig_case, experiment.name, card);
     if (experiment.rig) card.tests.back().rig = *experiment.rig;  // a drum with its fill
     card.tests.back().rig.lifted_tube = *experiment.device;
@@ -151,7 +165,11 @@ engine::Material ActingOn(const Card& card, std::size_t material, std::size_t ot
 
 Card ReadCard(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return ReadCampaignCard(path);
-  Card card = CardOf(trials::LoadAnyCase(path));
+  const rigs::Case rig_case = trials::LoadAnyCase(path);
+  Card card = CardOf(rig_case);
+  if (const auto engine = trials::EngineOfCase(path)) {
+    card.deck = DeckOf(*engine, rig_case, PowderPlaceholders());
+  }
   card.title = path.filename().string();
   return card;
 }
@@ -194,6 +212,7 @@ TypicalContact TypicalContactOf(const Card& card) {
 }
 
 std::string CardText(const Card& card, CardFormat format) {
+  if (card.deck) return DeckCardText(card, format);
   switch (format) {
     case CardFormat::kTable:
       return TableCard(card);

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,19 @@ struct CardTest {
   std::size_t plate = 0;
 };
 
+struct CardPlaceholder {
+  std::string name;
+  std::string value;  // SI, with all digits
+};
+
+// Another engine's deck that a set was calibrated with (card_deck.h).
+struct CardDeck {
+  std::string command;
+  std::string templates;                        // their folder
+  std::vector<CardPlaceholder> placeholders{};  // of what was calibrated
+  std::vector<CardPlaceholder> given{};         // what they hold together with
+};
+
 struct Card {
   std::string title;
   // The powder first; walls only where they act on it otherwise than its grains, and differ from
@@ -62,6 +76,7 @@ struct Card {
   std::vector<CardTest> tests{};     // one at least
   std::vector<CardRange> ranges{};   // none for a lone case
   std::vector<std::string> notes{};  // of the campaign: what is doubtful
+  std::optional<CardDeck> deck{};    // its values are the deck's, and our laws say nothing of them
 };
 
 Card CardOf(const rigs::Case& rig_case);

@@ -22,6 +22,9 @@ std::string CardNumber(double value);
 // What the values hold for, one line each, behind `mark` ("# ", "// ").
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark);
 
+// "heap: tube of 10 mm lifted at 50 mm/s off a plate of 10 mm", "mixer: drum, diameter 0.024 m, …".
+std::string TestText(const CardTest& test);
+
 // "" of the first test, "2" of the second: what distinguishes the commands of one from the other's.
 std::string TestMark(const Card& card, const CardTest& test);
 

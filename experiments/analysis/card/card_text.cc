@@ -13,9 +13,6 @@ namespace talus::analysis {
 
 std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
 
-namespace {
-
-// "heap: tube of 10 mm lifted at 50 mm/s off a plate of 10 mm", "mixer: drum, diameter 0.024 m, …".
 std::string TestText(const CardTest& test) {
   const std::string name = base::OneLine(test.name) + ": ";
   if (test.rig.kind == rigs::RigKind::kLiftedTube) {
@@ -31,6 +28,8 @@ std::string TestText(const CardTest& test) {
   }
   return text + " (SI)";
 }
+
+namespace {
 
 // What differs from the published model, which the codes have.
 std::string JkrText(const engine::ContactModels& models, const std::string& mark) {

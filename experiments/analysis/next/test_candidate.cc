@@ -8,6 +8,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/name.h"
+#include "experiments/analysis/next/deck_gaps.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/validate_numbers.h"
 #include "experiments/rigs/load_case.h"
@@ -151,10 +152,10 @@ std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
   if (problems.empty()) ValidateAsAdded(view, test, problems);
   try {
     problems.ThrowIfAny();
+    return WhyNotByDeck(view, TypicalOf(view, test));
   } catch (const base::ConfigError& error) {
     return error.what();
   }
-  return {};
 }
 
 std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test) {

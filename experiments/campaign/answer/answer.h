@@ -88,9 +88,12 @@ struct ResultConditions {
   std::vector<ResultDevice> devices{};  // of each experiment
   std::string adhesion{};
   std::string rolling{};
+  std::string command{};  // of another engine, whose deck has the laws; empty: ours
 
-  static constexpr base::FieldKey kKeys[] = {{"youngs_modulus", "youngs_modulus_Pa"}};
-  TALUS_FIELDS(scale_factor, surface_energy_exponent, youngs_modulus, devices, adhesion, rolling);
+  static constexpr base::FieldKey kKeys[] = {{"youngs_modulus", "youngs_modulus_Pa"},
+                                             {"command", "engine_command"}};
+  TALUS_FIELDS(scale_factor, surface_energy_exponent, youngs_modulus, devices, adhesion, rolling,
+               command);
 };
 
 // What more simulations are expected to take from the range of a parameter.

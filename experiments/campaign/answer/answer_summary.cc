@@ -183,6 +183,14 @@ std::string PosteriorLines(const Answer& result) {
          " % raw, " + base::ShortNumber(100 * p.tempered_coverage) + " % tempered\n";
 }
 
+// Of another engine only its deck knows the laws.
+std::string LawsText(const ResultConditions& c) {
+  const std::string scale = "scale factor " + base::ShortNumber(c.scale_factor);
+  if (!c.command.empty()) return scale + ", the deck of \"" + c.command + "\" and its laws";
+  return scale + ", Y " + base::ShortNumber(c.youngs_modulus / 1e6) + " MPa, adhesion " +
+         c.adhesion + ", rolling " + c.rolling;
+}
+
 }  // namespace
 
 std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) {
@@ -203,9 +211,7 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
         "  next              `talus next DIR` ranks what would narrow it; `talus report DIR` shows "
         "it\n";
   }
-  text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
-          ", Y " + base::ShortNumber(r.conditions.youngs_modulus / 1e6) + " MPa, adhesion " +
-          r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
+  text += "  holds for         " + LawsText(r.conditions) + "\n";
   for (const ResultDevice& device : r.conditions.devices) {
     text += "                    " + device.experiment + ", " + device.text + "\n";
   }

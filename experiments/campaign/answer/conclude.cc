@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/sample.h"
+#include "base/text/joined.h"
 #include "base/version.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/alarms.h"
@@ -231,6 +232,9 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
       .youngs_modulus = spec.powder.material.youngs_modulus,
       .adhesion = std::string(base::NameOf(spec.models.adhesion)),
       .rolling = std::string(base::NameOf(spec.models.rolling))};
+  if (spec.engine.kind == EngineKind::kCommand) {
+    conditions.command = base::Joined(spec.engine.command.command, " ");
+  }
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     conditions.devices.push_back({.experiment = experiments[e].name,

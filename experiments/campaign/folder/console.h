@@ -27,6 +27,8 @@ class Console {
   ~Console();
 
   void Line(const std::string& text);
+  // For campaign.log alone: what somebody else tells the user.
+  void Note(const std::string& text) { Log(text); }
   void Trial(const TrialProgress& trial);
   // Shown on a terminal until the next line or status, elsewhere a line a minute; for scripts a
   // line after each change.

@@ -44,6 +44,9 @@ std::string ProgressText(const CampaignProgress& campaign) {
   std::string text = campaign.used;
   if (campaign.num_confirm > 0) text += ", the search has ended and its sets are confirmed";
   text += ", " + std::to_string(campaign.num_running) + " running";
+  if (campaign.num_waiting > 0) {
+    text += ", " + std::to_string(campaign.num_waiting) + " waiting in the queue";
+  }
   if (campaign.best) {
     text += ", best " + base::ShortNumber(*campaign.best) + " " + campaign.unit + " (trial " +
             std::to_string(campaign.best_trial) + ")";

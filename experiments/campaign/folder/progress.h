@@ -52,6 +52,7 @@ struct CampaignProgress {
   double core_seconds = 0;  // used by the search, where that is the budget [s]
   std::optional<double> core_seconds_budget{};
   int num_running = 0;
+  int num_waiting = 0;  // in a cluster's queue, beside those that run
   std::optional<double> best{};
   std::int64_t best_trial = 0;
   std::string unit{};
@@ -59,7 +60,7 @@ struct CampaignProgress {
 
   static constexpr base::FieldKey kKeys[] = {{"best", "best_objective"}};
   TALUS_FIELDS(num_search, num_confirm, budget, core_seconds, core_seconds_budget, num_running,
-               best, best_trial, unit, seconds_left);
+               num_waiting, best, best_trial, unit, seconds_left);
 };
 
 // "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², the best so far, 12 s"

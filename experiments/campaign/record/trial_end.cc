@@ -28,16 +28,15 @@ void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
   if (!(trial.cpu_s > 0)) trial.cpu_s = output.cpu_time;  // it had ended in an earlier process
 }
 
-void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
-                    const std::vector<journal::MetricRecord>& left) {
+std::optional<std::string> MissingNumber(const Reference& reference,
+                                         const std::vector<journal::MetricRecord>& left) {
   const std::string names = base::Joined(left, "\", \"", &journal::MetricRecord::name);
   for (const journal::ScalarRecord& measured : reference.scalars()) {
     if (std::ranges::any_of(left, [&](const auto& l) { return l.name == measured.name; })) continue;
-    throw base::Error(
-        "trial " + std::to_string(trial.id) + " leaves no \"" + measured.name +
-        "\", which was measured; it leaves " + (names.empty() ? "no number" : "\"" + names + "\"") +
-        ". Let the engine leave it under this name (docs/foreign_engines.md) and `talus resume`");
+    return "leaves no \"" + measured.name + "\", which was measured; it leaves " +
+           (names.empty() ? "no number" : "\"" + names + "\"");
   }
+  return std::nullopt;
 }
 
 TrialProgress ProgressOf(const journal::TrialRecord& trial, const journal::CampaignRecord& campaign,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,10 @@ std::string FailureText(const runners::FinishedJob& job, const std::filesystem::
 void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
                 journal::TrialRecord& trial);
 
-// A number that the engine does not leave at all is the set-up's fault: no other trial would have
-// it. Throws base::Error.
-void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
-                    const std::vector<journal::MetricRecord>& left);
+// A number that was measured and that the engine does not leave at all, in words; it is the
+// set-up's fault, and no other trial would have it.
+std::optional<std::string> MissingNumber(const Reference& reference,
+                                         const std::vector<journal::MetricRecord>& left);
 
 // All of it but whether it is the best so far.
 TrialProgress ProgressOf(const journal::TrialRecord& trial, const journal::CampaignRecord& campaign,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "base/json/json_file.h"
@@ -28,11 +29,15 @@ struct CommandCase {
 std::string CaseText(const CommandCase& command_case);
 
 // Reads, completes and validates a case with all that can be known of its command, and notes which
-// templates it has; throws one ConfigError with everything that is wrong.
+// templates it has, which may have been moved together with it; throws one ConfigError with
+// everything that is wrong.
 CommandCase LoadCommandCase(const base::JsonFile& file);
 
 // The bulk test of a case.json, whatever simulates it: the engine is neither looked for nor
 // checked. Throws as rigs::LoadCase does.
 rigs::Case LoadAnyCase(const std::filesystem::path& path);
+
+// The other engine of a case.json; nothing where it is ours.
+std::optional<CommandOptions> EngineOfCase(const std::filesystem::path& path);
 
 }  // namespace talus::trials

@@ -27,6 +27,7 @@
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
+#include "experiments/trials/engines/grain_check.h"
 #include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -52,6 +53,7 @@ struct Measured {
   std::size_t num_spheres = 0;  // in the file
   std::size_t num_grains = 0;   // of the heap
   std::vector<journal::MetricRecord> scalars{};
+  std::string doubt{};  // of its grains
 };
 
 journal::MetricRecord RecordOf(const rigs::Reading& reading) {
@@ -106,6 +108,10 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     throw base::Error("left " + file.filename().string() + " with " + *wrong +
                       "; is engine.length_unit right?");
   }
+  const std::optional<GrainDoubt> doubt = DoubtOfGrains(rig_case, spheres);
+  if (doubt && doubt->is_unit_slip) {
+    throw base::Error("left " + file.filename().string() + " with " + doubt->text);
+  }
   const auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
@@ -114,6 +120,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   }
   Measured measured{
       .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
+  if (doubt) measured.doubt = file.filename().string() + " has " + doubt->text;
   if (rig_case.frame) {
     if (const int num = rigs::ProfileFrameOf(rig_case).num_pictures(); num > 1) {
       throw base::Error("left spheres, which show one moment of the run; leave an image of its " +
@@ -151,6 +158,19 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
   return measured;
 }
 
+// Without a frame numbers are enough, and most likely what was meant.
+fs::path FindMeasurable(const CommandOptions& options, const rigs::Case& rig_case,
+                        const fs::path& folder) {
+  if (rig_case.frame) return FindResult(options, folder, kCommandFile);
+  try {
+    return FindResult(options, folder, kCommandFile);
+  } catch (const base::Error& error) {
+    throw base::Error(
+        std::string("left neither scalars.json nor scalars.csv with its numbers, and ") +
+        error.what());
+  }
+}
+
 // What the command left: spheres or an image where there is a frame, numbers, or both. The numbers
 // of a lifted tube's heap follow from its spheres; one that the command gives itself counts.
 Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case,
@@ -158,7 +178,7 @@ Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case
   const std::vector<journal::MetricRecord> given = ReadScalars(folder);
   Measured measured;
   if (rig_case.frame || given.empty()) {
-    const fs::path file = FindResult(options, folder, kCommandFile);
+    const fs::path file = FindMeasurable(options, rig_case, folder);
     measured = file.extension() == ".png" ? MeasureImage(rig_case, file, folder)
                                           : MeasureSpheres(options, rig_case, file, folder);
     measured.files.push_back(file);
@@ -317,7 +337,8 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
           .num_particles = static_cast<std::int64_t>(measured.num_spheres),
           .scalars = measured.scalars,
           .cpu_time = CpuTimeOf(folder / kDone),
-          .note = {}};
+          .note = {},
+          .doubt = measured.doubt};
 }
 
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
@@ -326,6 +347,9 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
   const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
   if (auto difference = rigs::RunDifference(made.heap, rig_case)) return difference;
   const auto engines = base::JsonChanges(EngineJson(made.engine), EngineJson(options_));
+  if (!engines.empty() && engines.front().path == "templates_hash") {
+    return "engine.templates holds other files there than here";
+  }
   if (!engines.empty()) {
     return "engine." + engines.front().path + " is " + engines.front().before + " there and " +
            engines.front().after + " here";

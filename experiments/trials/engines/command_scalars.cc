@@ -130,6 +130,11 @@ fs::path ScalarFile(const fs::path& folder) {
 std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
   const fs::path file = ScalarFile(folder);
   if (file.empty()) return {};
+  if (fs::exists(folder / kJson) && fs::exists(folder / kCsv)) {
+    throw base::Error(
+        "left both scalars.json and scalars.csv, and nobody can tell which is meant; "
+        "leave one of them");
+  }
   const std::string text = base::ReadFile(file, kMostBytes);
   std::vector<journal::MetricRecord> scalars =
       file.filename() == kJson ? ParseJsonScalars(text) : ParseCsvScalars(text);

@@ -11,7 +11,7 @@ namespace talus::trials {
 
 // scalars.json, {"runout_m": 0.03, …}, or scalars.csv, lines of name and value; nothing where there
 // is neither. A number that is not defined is null in JSON, and empty in CSV. Throws base::Error
-// with the place of what cannot be read.
+// with the place of what cannot be read, and where both are there.
 std::vector<journal::MetricRecord> ReadScalars(const std::filesystem::path& folder);
 std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text);
 std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text);

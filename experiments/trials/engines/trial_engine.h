@@ -20,7 +20,8 @@ struct TrialOutput {
   std::int64_t num_particles = 0;
   std::vector<journal::MetricRecord> scalars{};  // what was measured beside the image
   double cpu_time = 0;                           // [s], 0 when not known
-  std::string note;  // how it ended, such as a phase that met its time cap; may be empty
+  std::string note;     // how it ended, such as a phase that met its time cap; may be empty
+  std::string doubt{};  // of the set-up, and so of every trial: "heap.dump has grains of …"
 };
 
 class TrialEngine {

@@ -67,14 +67,16 @@ void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOpt
   CommandEngine engine(command_case.engine);
   engine.Prepare(command_case.heap, folder);
   const bool was_complete = engine.IsComplete(folder);
+  TrialOutput output;
   try {
     if (!was_complete) RunCommand(engine, command_case.heap.threads, folder);
-    engine.Collect(command_case.heap, folder);
+    output = engine.Collect(command_case.heap, folder);
   } catch (const base::Error& error) {
     WriteFailure(folder, error.what());
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is
   }
   if (quiet) return;
+  if (!output.doubt.empty()) std::fprintf(stderr, "warning: %s\n", output.doubt.c_str());
   std::printf("%s: is done%s\n", folder.string().c_str(), was_complete ? " already" : "");
 }
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/random.h"
+#include "experiments/analysis/batches/batch_warnings.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -215,6 +216,46 @@ TEST_F(BatchesTest, WhatSpeaksAgainstAComparisonIsSaid) {
   }
   EXPECT_GT(num_alarms, 0u);
   EXPECT_THAT(BatchesText(c), testing::Not(HasSubstr(" DIR")));  // commands name the folder
+}
+
+// Batches of two engines were compared as if their parameters meant the same.
+TEST_F(BatchesTest, OtherEnginesAreSaidFirst) {
+  const fs::path folder = Run("first", 0.4);
+  const campaign::JointView first = campaign::ReadJointView(folder);
+  campaign::JointView batch = first;
+  EXPECT_EQ(OtherEngine(first, batch), "");
+  batch.spec.engine.kind = campaign::EngineKind::kCommand;
+  batch.spec.engine.command.command = {"lmp", "-in", "in.heap"};
+  EXPECT_THAT(OtherEngine(first, batch),
+              testing::AllOf(HasSubstr("\"lmp -in in.heap\""), HasSubstr("talus itself")));
+  campaign::JointView other = batch;
+  other.spec.engine.command.templates_hash = "1";
+  EXPECT_THAT(OtherEngine(batch, other), HasSubstr("other templates"));
+  const std::string text = BatchesText(
+      {.batches = {"a", "b"}, .verdicts = {{.text = "equal"}}, .other_engines = {"engines"}});
+  EXPECT_LT(text.find("warning: engines"), text.find("b: equal"));
+}
+
+// The first of one campaign was set against the first of the other, whatever they were.
+TEST_F(BatchesTest, ConditionsAreThoseOfExperimentsOfOneName) {
+  const campaign::JointView first = campaign::ReadJointView(Run("first", 0.4));
+  campaign::JointView slow = campaign::ReadJointView(
+      Run("slow", 0.4, "23 mg", R"(, "device": {"lift_velocity": "2 cm/s"})"));
+  EXPECT_EQ(OtherConditions(first, slow).size(), 1u);
+  slow.record.experiments.front().name = "slow heap";
+  EXPECT_TRUE(OtherConditions(first, slow).empty());
+}
+
+TEST_F(BatchesTest, OneCampaignIsRefusedAndAnUnfinishedOneIsSaid) {
+  const fs::path first = Run("first", 0.4);
+  try {
+    CompareBatches({first, first / "."}, {});
+    FAIL();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is named twice"));
+  }
+  journal::Journal::Open(journal::JournalPath(first)).SetProgress({.state = "interrupted"});
+  EXPECT_THAT(AlarmsOf(campaign::ReadJointView(first)).front(), HasSubstr("is not finished"));
 }
 
 TEST_F(BatchesTest, OtherParametersAreRefused) {

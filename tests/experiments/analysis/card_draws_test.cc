@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/card/card.h"
+#include "experiments/analysis/card/card_deck.h"
 #include "experiments/analysis/card/card_walls.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -46,6 +47,31 @@ TEST_F(CardDrawsTest, AreFilesInEveryFormatWithTheirSetsAndWeights) {
     ++files;
   }
   EXPECT_EQ(files, 5 * 7 + 2);  // draws.csv, and whose folder it is
+}
+
+// LAMMPS' conversions of our conventions were made a second time of values that its deck had taken.
+TEST(DeckCard, HasThePlaceholdersAsTheyWentIntoTheDeck) {
+  rigs::Case rig_case;
+  rig_case.powder.material.sliding_friction = 0.3;
+  rig_case.powder.material.surface_energy = 0.01;
+  rig_case.coarse_graining.scale_factor = 2;
+  Card card = CardOf(rig_case);
+  card.ranges = {{.name = "sliding_friction", .unit = "", .value = 0.3, .low = 0.2, .high = 0.4}};
+  trials::CommandOptions engine;
+  engine.templates = "/a/deck";
+  engine.command = {"lmp", "-in", "in.heap"};
+  card.deck = DeckOf(engine, rig_case, {"sliding_friction", "surface_energy"});
+  for (const auto& [name, format] : base::Names<CardFormat>::kList) {
+    const std::string text = CardText(card, format);
+    EXPECT_THAT(text, HasSubstr("lmp -in in.heap")) << name;
+    EXPECT_THAT(text, HasSubstr("nothing is converted")) << name;
+    EXPECT_THAT(text, testing::Not(HasSubstr("rolling"))) << name;
+  }
+  const std::string lammps = CardText(card, CardFormat::kLammps);
+  EXPECT_THAT(lammps, HasSubstr("#   {{ sliding_friction }} = 0.3, 90 %: 0.2 ... 0.4\n"));
+  EXPECT_THAT(lammps, HasSubstr("{{ surface_energy_used }} = 0.02, {{ scale_factor }} = 2"));
+  const auto json = nlohmann::json::parse(CardText(card, CardFormat::kJson));
+  EXPECT_EQ(json["placeholders"]["surface_energy"], "0.01");
 }
 
 // A heap on a plate of its own, and powder tapped in a cylinder of another material that states its

@@ -144,5 +144,27 @@ TEST_F(NextCandidates, ATestThatCouldNotBeAddedSaysWhy) {
   for (const TestCandidate& usual : UsualTests(view)) EXPECT_EQ(WhyNot(view, usual), "");
 }
 
+// One deck was run as if it were other tests, and all of them were ranked.
+TEST_F(NextCandidates, ADeckSimulatesOnlyTheTestsThatItTakes) {
+  JointView view = Run();
+  const fs::path deck = scratch_.path() / "deck";
+  fs::create_directories(deck);
+  std::ofstream(deck / "in.heap") << "{{ sliding_friction }} {{ rolling_friction }}";
+  view.spec.engine.kind = campaign::EngineKind::kCommand;
+  view.spec.engine.command.templates = deck;
+  view.spec.engine.command.command = {"lmp", "-in", "in.heap"};
+  TestCandidate wide{.name = "wide"};
+  wide.device = view.spec.device;
+  wide.device->plate_diameter *= 1.5;
+  TestCandidate drum{.name = "drum"};
+  drum.rig.emplace().kind = rigs::RigKind::kDrum;
+  EXPECT_EQ(WhyNot(view, TestCandidate{.name = "the same"}), "");
+  EXPECT_THAT(WhyNot(view, wide), HasSubstr("templates have no {{ plate_diameter }}"));
+  EXPECT_THAT(WhyNot(view, drum), HasSubstr("{{ rig_kind }}"));
+  EXPECT_THAT(Find(Rank(view, {wide}, true), "wide").what, HasSubstr("cannot be simulated: "));
+  std::ofstream(deck / "in.heap", std::ios::app) << "{{ plate_radius }}";
+  EXPECT_EQ(WhyNot(view, wide), "");
+}
+
 }  // namespace next_candidates_test
 }  // namespace talus::analysis

@@ -166,7 +166,21 @@ TEST_F(CampaignTest, WhereEveryTrialFailsItEndsEarlyWithTheReason) {
   const std::string marker = (folder / "trials").string();
   EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFailed);
   EXPECT_EQ(Trials(folder).size(), 8u);
-  EXPECT_THAT(StatusText(folder), HasSubstr("the first 8 trials all failed, the last: "));
+  const std::string status = StatusText(folder);
+  EXPECT_THAT(status, HasSubstr("the first 8 trials all failed, the last: "));
+  EXPECT_THAT(status, HasSubstr("ended without a result; mend the cause, and `talus resume"));
+  EXPECT_THAT(status, testing::Not(HasSubstr("time left")));
+}
+
+// A reason that quotes a seed was a line for each trial, and its line breaks began lines of
+// nothing.
+TEST_F(CampaignTest, ReasonsThatDifferInNumbersAreOneLineOfTheStatus) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 50}, "workers": 1,
+    "strategy": {"kind": "sobol"})");
+  EXPECT_EQ(RunFake(folder, {.seed_in_reason = true}), CampaignEnd::kFailed);
+  const std::string status = StatusText(folder);
+  EXPECT_THAT(status, HasSubstr("    8 × exit status 4: seed "));
+  EXPECT_THAT(status, HasSubstr("\n        lost atoms (the numbers differ)\n"));
 }
 
 // The set-up has been mended since: else the campaign could never go on, or its search would keep

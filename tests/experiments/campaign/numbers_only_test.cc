@@ -218,6 +218,9 @@ TEST_F(NumbersOnly, ANumberThatTheEngineDoesNotLeaveStopsTheCampaignAtOnce) {
     EXPECT_THAT(error.what(), HasSubstr("leaves no \"tapped_density_kg_per_m3\""));
     EXPECT_THAT(error.what(), HasSubstr("leaves no number"));
   }
+  // Who asks later, or on another machine, has not seen the message.
+  EXPECT_THAT(StatusText(folder), HasSubstr("because           an error ended it: trial "));
+  EXPECT_THAT(base::ReadFile(folder / "campaign.log"), HasSubstr("an error ended it: trial "));
   // Nothing is lost: an engine that leaves it goes on with the same trials.
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_TRUE(Result(folder).posterior);

@@ -238,6 +238,17 @@ TEST_F(ReuseTest, GrainsOfAnotherSizeAreThoseOfAnotherScaleFactor) {
 }
 
 // The others choose their first sets by what they have been told, and would leave them out.
+TEST_F(ReuseTest, TrialsOfAnotherEngineAreRefusedAsSuch) {
+  const fs::path former = Ended();
+  fs::create_directories(path("deck"));
+  std::ofstream(path("deck") / "run.sh") << "{{ sliding_friction }} {{ rolling_friction }}";
+  const fs::path spec = WriteSpec("foreign", std::string(kNew) + R"(, "engine": {"kind": "command",
+      "command": ["sh", "run.sh"], "templates": ")" +
+                                                 path("deck").string() + "\"}");
+  EXPECT_THAT(ErrorOf(spec, {former}),
+              HasSubstr("it was run by talus itself; here another engine simulates"));
+}
+
 TEST_F(ReuseTest, AnotherStrategyIsRefused) {
   const fs::path former = Ended();
   EXPECT_THAT(ErrorOf(WriteSpec("other", R"(, "strategy": {"kind": "gp"})"), {former}),

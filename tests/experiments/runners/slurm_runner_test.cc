@@ -1,104 +1,19 @@
-// The Slurm runner with stand-ins for Slurm's commands, so that what a cluster may answer can be
-// chosen. tests/system/slurm_test.cc does the same with a real cluster.
+// The Slurm runner with stand-ins for Slurm's commands.
 #include "experiments/runners/slurm_runner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <fstream>
+#include <algorithm>
 
 #include "base/error.h"
-#include "base/files/file.h"
-#include "experiments/runners/slurm_verdict.h"
+#include "tests/experiments/slurm_fixture.h"
 
 namespace talus::runners {
 namespace slurm_runner_test {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-// sbatch gives number 100 + n to the n-th batch, notes it, and runs its tasks at once unless there
-// is a file `hold`; squeue prints the file `queue`; scancel notes what it is to cancel.
-constexpr const char* kSbatch = R"(#!/bin/bash
-[ -e hold_sbatch ] && { cat hold_sbatch >&2; exit 1; }
-echo "$2" >>submitted
-number=$((100 + $(wc -l <submitted)))
-echo "$number"
-[ -e hold ] && exit 0
-last=$(sed -n 's/^#SBATCH --array=0-//p' "$2")
-for task in $(seq 0 "$last"); do SLURM_ARRAY_TASK_ID=$task bash "$2" </dev/null >/dev/null 2>&1; done
-exit 0
-)";
-constexpr const char* kSqueue = R"(#!/bin/bash
-[ -e queue_is_down ] && { echo "Unable to contact slurm controller" >&2; exit 1; }
-[[ "$*" = *--name=* ]] && { cat found 2>/dev/null; exit 0; }
-echo asked >>squeue_calls
-cat queue 2>/dev/null; exit 0
-)";
-
-class SlurmRunnerTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    root_ = fs::temp_directory_path() /
-            ("talus slurm " + std::to_string(::getpid()) +  // a blank, as users' folders have
-             ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(root_ / "bin");
-    Program("sbatch", kSbatch);
-    Program("squeue", kSqueue);
-    Program("sacct", "#!/bin/bash\ncat accounting 2>/dev/null || exit 1\n");
-    Program("scancel", "#!/bin/bash\necho \"$1\" >>cancelled\n");
-    old_path_ = std::getenv("PATH");
-    ::setenv("PATH", ((root_ / "bin").string() + ":" + old_path_).c_str(), 1);
-    old_folder_ = fs::current_path();
-    fs::current_path(root_);  // where the stand-ins look for their files
-    options_.poll_interval = 0.05;
-    options_.result_delay = 0.3;
-  }
-  void TearDown() override {
-    fs::current_path(old_folder_);
-    ::setenv("PATH", old_path_.c_str(), 1);
-    fs::remove_all(root_);
-  }
-
-  void Program(const std::string& name, const std::string& text) {
-    Put("bin/" + name, text);
-    fs::permissions(root_ / "bin" / name, fs::perms::owner_all);
-  }
-  void Put(const std::string& name, const std::string& text) {
-    std::ofstream(root_ / name, std::ios::binary) << text;
-  }
-  std::string Text(const std::string& name) {
-    return fs::exists(root_ / name) ? base::ReadFile(root_ / name) : "";
-  }
-  Job Shell(std::int64_t id, const std::string& script) {
-    Job job;
-    job.id = id;
-    job.folder = root_ / "trials" / std::to_string(id);
-    fs::create_directories(job.folder);
-    job.command = {"sh", "-c", script};
-    return job;
-  }
-  // All that finish within the time.
-  std::vector<FinishedJob> Finish(SlurmRunner& runner, std::size_t count, double seconds = 10) {
-    std::vector<FinishedJob> all;
-    const auto start = std::chrono::steady_clock::now();
-    while (all.size() < count &&
-           std::chrono::steady_clock::now() - start < std::chrono::duration<double>(seconds)) {
-      for (const FinishedJob& finished : runner.Wait(0.1)) all.push_back(finished);
-    }
-    std::sort(all.begin(), all.end(),
-              [](const FinishedJob& a, const FinishedJob& b) { return a.id < b.id; });
-    return all;
-  }
-
-  fs::path root_;
-  fs::path old_folder_;
-  std::string old_path_;
-  SlurmOptions options_;
-};
 
 // A line break in the folder's name ended the comment that the script keeps it in, and bash ran
 // what followed.
@@ -156,6 +71,7 @@ TEST_F(SlurmRunnerTest, JobsGivenTogetherAreOneArrayAndTellHowTheyEnded) {
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(7, "echo \"it's $PWD\""), Shell(8, "exit 3"), Shell(9, "kill -9 $$")};
   EXPECT_THAT(runner.Submit(jobs), ElementsAre("101_0", "101_1", "101_2"));
+  EXPECT_THAT(Text("campaign/slurm/batch-000001.sh"), HasSubstr("--job-name=campaign-talus-"));
   Put("queue", "101_0|COMPLETED|None\n101_1|FAILED|NonZeroExitCode\n101_2|OUT_OF_MEMORY|\n");
   const auto finished = Finish(runner, 3);
   ASSERT_EQ(finished.size(), 3u);
@@ -265,75 +181,9 @@ TEST_F(SlurmRunnerTest, LateResultIsWaitedFor) {
   EXPECT_EQ(finished[0].host, "node7");
 }
 
-TEST_F(SlurmRunnerTest, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
-  Put("hold", "");
-  options_.result_delay = 0;
-  options_.max_requeues = 0;
-  SlurmRunner runner(options_, root_ / "campaign");
-  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
-  runner.Submit(jobs);
-  Put("accounting", "101_0|CANCELLED by 1000\n");
-  const auto finished = Finish(runner, 2);
-  ASSERT_EQ(finished.size(), 2u);
-  EXPECT_THAT(finished[0].reason, HasSubstr("was cancelled in Slurm (by 1000)"));
-  EXPECT_THAT(finished[1].reason, HasSubstr("no longer known to Slurm"));
-}
-
-TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
-  SlurmRunner runner(options_, root_ / "campaign");
-  Put("hold_sbatch", "sbatch: error: invalid partition specified: mian");
-  const Job first[] = {Shell(1, "true")};
-  EXPECT_THAT(runner.Submit(first), ElementsAre(""));
-  auto finished = Finish(runner, 1);
-  ASSERT_EQ(finished.size(), 1u);
-  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
-  EXPECT_THAT(finished[0].reason, HasSubstr("invalid partition"));
-
-  Put("hold_sbatch", "sbatch: error: Unable to contact slurm controller (connect failure)");
-  const Job second[] = {Shell(2, "true")};
-  runner.Submit(second);
-  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
-  fs::remove(root_ / "hold_sbatch");
-  finished = Finish(runner, 1);
-  ASSERT_EQ(finished.size(), 1u);
-  EXPECT_TRUE(finished[0].ok());
-}
-
-TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
-  SlurmRunner runner(options_, root_ / "campaign");
-  EXPECT_EQ(runner.Trouble(), "");
-  Put("hold_sbatch", "sbatch: error: Unable to contact slurm controller (connect failure)");
-  const Job jobs[] = {Shell(1, "true")};
-  runner.Submit(jobs);
-  EXPECT_THAT(runner.Trouble(), HasSubstr("Unable to contact slurm controller"));
-  EXPECT_THAT(runner.TakeBackUnsent(), ElementsAre(1));
-  EXPECT_EQ(runner.Trouble(), "");
-  fs::remove(root_ / "hold_sbatch");
-  EXPECT_TRUE(Finish(runner, 1, 0.3).empty());
-  EXPECT_FALSE(fs::exists(root_ / "submitted"));
-}
-
-// Slurm says the same of a queue that is full for now and of a job that is too large for ever.
-TEST_F(SlurmRunnerTest, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
-  SlurmRunner runner(options_, root_ / "campaign");
-  Put("hold_sbatch",
-      "sbatch: error: Job violates accounting/QOS policy (job submit limit, user's size and/or "
-      "time "
-      "limits)");
-  Put("queue", "77|RUNNING|None\n");
-  const Job jobs[] = {Shell(1, "true")};
-  runner.Submit(jobs);
-  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
-  Put("queue", "");
-  const auto finished = Finish(runner, 1);
-  ASSERT_EQ(finished.size(), 1u);
-  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
-  EXPECT_THAT(finished[0].reason, HasSubstr("QOS policy"));
-}
-
 // It would count as failed trials of the parameters, and teach the search that they fail.
 TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
-  options_.setup = {"echo no such module >&2; exit 1"};
+  options_.setup = {"echo no such module >&2; exit 7"};
   SlurmRunner runner(options_, root_ / "campaign");
   Program("sbatch", std::string(kSbatch).replace(std::string(kSbatch).find(">/dev/null 2>&1; done"),
                                                  21, R"(>"${2%.sh}-$task.log" 2>&1; done)"));
@@ -342,8 +192,44 @@ TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
   const auto finished = Finish(runner, 1);
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("exit status 7"));
   EXPECT_THAT(finished[0].reason, HasSubstr("no such module"));
+  EXPECT_THAT(finished[0].reason, HasSubstr("slurm/batch-000001-0.log"));
   EXPECT_FALSE(fs::exists(root_ / "trials/1/ran"));
+}
+
+// What the failed set-up has left in the trial's folder was taken for the end of every later try.
+TEST_F(SlurmRunnerTest, AfterASetUpThatFailedTheJobIsSubmittedAnew) {
+  const Job jobs[] = {Shell(1, "touch ran")};
+  options_.setup = {"exit 7"};
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    runner.Submit(jobs);
+    ASSERT_EQ(Finish(runner, 1).size(), 1u);
+  }
+  options_.setup.clear();
+  SlurmRunner runner(options_, root_ / "campaign");
+  EXPECT_FALSE(runner.Adopt(jobs[0], ""));
+  runner.Submit(jobs);
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_TRUE(finished[0].ok());
+  EXPECT_TRUE(fs::exists(root_ / "trials/1/ran"));
+}
+
+// It waited in the queue while the set-up was mended: the script that it was submitted with is old.
+TEST_F(SlurmRunnerTest, AnAdoptedJobWhoseOldSetUpFailsMayRunAgain) {
+  Put("hold", "");
+  Job job = Shell(1, "true");
+  SlurmRunner(options_, root_ / "campaign").Submit({&job, 1});
+  SlurmRunner runner(options_, root_ / "campaign");
+  job.command.clear();  // as a campaign adopts it
+  ASSERT_TRUE(runner.Adopt(job, ""));
+  Put("trials/1/.slurm_end", "1 0 7 0 0 0 node7 set-up\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kPreempted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("exit status 7"));
 }
 
 TEST_F(SlurmRunnerTest, AFolderByAnotherNameHasTheSameJobs) {
@@ -403,35 +289,6 @@ TEST_F(SlurmRunnerTest, SlurmIsNotAskedMoreOftenThanAllowed) {
   // 1.8 s hold three intervals of 0.5 s; a slow machine may fit in fewer.
   EXPECT_LE(std::count(calls.begin(), calls.end(), '\n'), 3);
   EXPECT_GE(std::count(calls.begin(), calls.end(), '\n'), 1);
-}
-
-TEST(SlurmVerdict, MemoryKillWithoutCgroupsIsSeenInTheLog) {
-  EXPECT_EQ(VerdictOf({"FAILED", "JobLaunchFailure"}, "error: Exceeded job memory limit\n").end,
-            JobEnd::kOutOfMemory);
-  const Verdict failed = VerdictOf({"FAILED", "NonZeroExitCode"}, "a\nmodule: not found\n");
-  EXPECT_EQ(failed.end, JobEnd::kSignal);
-  EXPECT_THAT(failed.reason, HasSubstr("without a result: module: not found"));
-}
-
-// The lines that Slurm 22.05 writes.
-TEST(SlurmVerdict, LimitsOfAForgottenJobAreSeenInTheLog) {
-  EXPECT_EQ(VerdictOf({kLost, ""},
-                      "slurmstepd: error: *** JOB 12 ON n1 CANCELLED AT 2026-11-21T05:00:00 DUE TO "
-                      "TIME LIMIT ***\n")
-                .end,
-            JobEnd::kTimeCap);
-  EXPECT_EQ(VerdictOf({kLost, ""}, "slurmstepd: error: Detected 1 oom-kill event(s) in step\n").end,
-            JobEnd::kOutOfMemory);
-  EXPECT_EQ(VerdictOf({kLost, ""}, "").end, JobEnd::kNodeFailure);
-}
-
-TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {
-  for (const char* name : {"PENDING", "RUNNING", "COMPLETING", "REQUEUED", "SUSPENDED"}) {
-    EXPECT_TRUE(IsUnfinished({name, ""})) << name;
-  }
-  for (const char* name : {"COMPLETED", "FAILED", "TIMEOUT", "NODE_FAIL", "BOOT_FAIL", "REVOKED"}) {
-    EXPECT_FALSE(IsUnfinished({name, ""})) << name;
-  }
 }
 
 }  // namespace slurm_runner_test

@@ -71,7 +71,7 @@ TEST_F(CommandEngineTest, ARunOfOtherTemplatesIsNotTakenForThisOne) {
   std::ofstream(root_ / "case.json") << R"({"powder": {"material": {"density": 2500},
     "sizes": {"kind": "mono", "diameter": "1 mm"}},
     "rig": {"kind": "drum", "diameter": "20 mm", "width": "10 mm", "speed": "2 rad/s", "fill": 0.3},
-    "engine": {"templates": "deck", "command": ["sh", "run.sh"]}})";
+    "engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]}})";
   const auto simulate = [&](bool fresh) {
     const CommandCase own = LoadCommandCase(base::ReadJsonFile(root_ / "case.json"));
     EXPECT_GT(own.heap.powder.mass, 0);  // by the drum's fill

@@ -116,6 +116,7 @@ std::vector<std::string> ConditionWords(const campaign::ResultConditions& c) {
   std::vector<std::string> words{
       "Young's modulus of the grains " + base::ShortNumber(c.youngs_modulus / 1e6) + " MPa",
       "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
+  if (!c.command.empty()) words = {"the deck of \"" + c.command + "\" and its contact laws"};
   for (const campaign::ResultDevice& device : c.devices) {
     words.push_back(device.experiment + ", " + device.text);
   }

@@ -1,0 +1,51 @@
+#include "experiments/campaign/mended_engine.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/problems.h"
+#include "base/text/counted.h"
+#include "experiments/trials/engines/template_folder.h"
+
+namespace talus::campaign {
+namespace {
+
+long long NumSucceeded(std::span<const journal::TrialRecord> trials) {
+  return std::ranges::count(trials, journal::TrialStatus::kOk, &journal::TrialRecord::status);
+}
+
+}  // namespace
+
+bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignSpec& spec) {
+  trials::CommandOptions& engine = spec.engine.command;
+  if (spec.engine.kind != EngineKind::kCommand ||
+      !std::filesystem::is_directory(engine.templates.value())) {
+    return false;
+  }
+  const std::string hash = trials::TemplateFolder(*engine.templates).Hash();
+  if (hash == engine.templates_hash) return false;
+  const std::string templates = engine.templates->string();
+  if (const long long count = NumSucceeded(trials); count > 0) {
+    throw base::ConfigError(templates + ": the templates are not those that " +
+                            base::Counted(count, "trial") +
+                            " of the campaign succeeded with; put them back, or begin another "
+                            "campaign with these");
+  }
+  base::Problems problems(templates, {});
+  CheckTemplates(spec, problems);
+  problems.ThrowIfAny();
+  engine.templates_hash = hash;
+  return true;
+}
+
+bool AllowMendedEngine(std::span<const journal::TrialRecord> trials,
+                       std::vector<std::string>& forbidden) {
+  if (NumSucceeded(trials) > 0) return false;
+  const auto num_mended = std::erase_if(forbidden, [](const std::string& change) {
+    return change.starts_with("engine.") && !change.starts_with("engine.kind:");
+  });
+  return num_mended > 0;
+}
+
+}  // namespace talus::campaign
