@@ -48,6 +48,7 @@ void RequireUnits(const json& object, const json& value, std::string_view unit_o
   const std::string unit = FirstUnit(*beside);
   if (unit.empty() || unit == "%") return;
   if (!value.is_array()) return RequireUnit(value, unit, "", problems);
+  if (!beside->is_array()) return;  // a list in place of a number is said elsewhere
   for (std::size_t i = 0; i < value.size(); ++i) {
     RequireUnit(value[i], unit, "[" + std::to_string(i) + "]", problems);
   }

@@ -226,6 +226,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (stale_.erase(trial.id) > 0) {  // however it has ended, it was the former engine's
     ++reruns_[trial.id];
     waiting_.push_back(std::move(trial));
+    NoteFormerEngineGone();
     return;
   }
   if (job.duration > 0) trial.duration_s = job.duration;

@@ -66,6 +66,7 @@ class Campaign {
   void RunFailedAgain();
   void TellFinished();
   void TakeUpRunning();
+  void NoteFormerEngineGone();
   void CollectReused();
   // Begun and not told.
   std::size_t NumBegun() const { return running_.size() + waiting_.size() + ended_.size(); }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/counted.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/plan/turns.h"
@@ -20,8 +21,9 @@ void Campaign::RunFailedAgain() {
     return trial.status != journal::TrialStatus::kFailed;
   });
   if (trials.empty()) return;
-  console_.Line("all " + std::to_string(trials.size()) + " trials have failed (" +
-                trials.back().reason + "): they are run again");
+  console_.Line((parts_.engine_is_new ? "with the former engine " : "all ") +
+                base::Counted(static_cast<long long>(trials.size()), "trial") +
+                " failed (the last: " + trials.back().reason + "): run again");
   for (const journal::TrialRecord& trial : trials) {
     std::filesystem::remove_all(folder_.trial(trial.id));
     ++reruns_[trial.id];
@@ -51,6 +53,12 @@ void Campaign::TakeUpRunning() {
       waiting_.push_back(trial);
     }
   }
+  NoteFormerEngineGone();
+}
+
+// Until then a session that ends leaves it to the next one to tell the former engine's trials.
+void Campaign::NoteFormerEngineGone() {
+  if (stale_.empty()) std::filesystem::remove(folder_.mended());
 }
 
 // They need no worker, and the first proposal waits for all of them.

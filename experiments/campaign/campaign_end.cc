@@ -73,6 +73,8 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
 void Campaign::NoteError(const std::string& error) {
   console_.Note("an error ended it: " + error);
   try {
+    // A campaign that had ended keeps its result, and the reason why it ended.
+    if (journal_.Progress().state == "finished") return;
     journal_.SetProgress({.state = "interrupted",
                           .stop_reason = "an error ended it: " + error,
                           .elapsed_s = Elapsed(),

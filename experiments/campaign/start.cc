@@ -136,8 +136,9 @@ void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& wr
   const std::vector<ExperimentSpec>& all = *going.experiments;
   const std::size_t num_begun =
       begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
-  if (num_begun == all.size()) return;
   std::vector<ExperimentSpec> kept = ExperimentsOf(read);
+  // A file that has been kept in step has them all.
+  if (num_begun >= all.size() || kept.size() != num_begun) return;
   kept.insert(kept.end(), all.begin() + static_cast<std::ptrdiff_t>(num_begun), all.end());
   read.experiments = std::move(kept);
   read.experiment.reset();
@@ -366,6 +367,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
+  if (change.engine_is_new) base::WriteFileAtomically(folder.mended(), change.words + "\n");
   // First: a search that stayed ended beside its changed spec would never go on.
   const bool searches_on = !change.event.empty() && change.event != kMoved;
   if (searches_on || options.objective) Reopen(journal);
@@ -381,7 +383,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
           .lock = std::move(lock),
           .journal = std::move(journal),
           .spec = std::move(spec),
-          .engine_is_new = change.engine_is_new};
+          .engine_is_new = fs::exists(folder.mended())};
 }
 
 }  // namespace talus::campaign

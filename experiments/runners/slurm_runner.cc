@@ -41,7 +41,9 @@ std::string CampaignId(const fs::path& folder) {
 // What squeue shows of a job by default is the first 8 letters of its name.
 std::string NameOf(const fs::path& campaign) {
   constexpr std::size_t kMost = 40;
-  return base::FileWord(campaign.lexically_normal().filename().string()).substr(0, kMost);
+  fs::path folder = campaign.lexically_normal();
+  if (folder.filename().empty()) folder = folder.parent_path();  // it ends with a slash
+  return base::FileWord(folder.filename().string()).substr(0, kMost);
 }
 
 // A lock that the commands started meanwhile inherit: as long as one of them runs, a later process

@@ -9,8 +9,8 @@
 // are not added as if independent. The prior p(x) (prior.h) counts as it is given: T is the
 // surrogates'.
 //
-// πⱼ(x) is the probability that a simulation at x gives a measured number, or image, at all: it may
-// crash, and a drum that carries its powder round has no angle. It is 1 where every simulation
+// πⱼ(x) is the probability that a simulation of experiment j at x gives all that was measured: it
+// may crash, and a drum that carries its powder round has no angle. It is 1 where every simulation
 // does.
 //
 // An experiment of weight w counts as its likelihood to the power w: √w r and w ln s.
@@ -49,7 +49,7 @@ class Posterior {
   // From now on in the density; a shift for each experiment.
   void ShiftOutputs(std::vector<ShiftBySet> shifts) { shifts_ = std::move(shifts); }
 
-  // Where simulations of an experiment give what was measured; only of what some of them lack.
+  // Where simulations of an experiment give all that was measured; only where some do not.
   void CountSuccesses(std::size_t experiment, SuccessModel successes);
   // Σ ln πⱼ, one point a row.
   Eigen::VectorXd LogSuccess(const Eigen::MatrixXd& points) const;

@@ -10,6 +10,8 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotEvaluated = 1e9;  // above every miss that can be told from others
+constexpr double kNothing = 1e18;
 
 // A number that does not exist is as far off as can be.
 double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& measured) {
@@ -27,33 +29,61 @@ double MissOfImage(const Observation& one, double least) {
   return least > 0 ? one.value * one.value / (least * least) : kInfinity;
 }
 
+class Misses {
+ public:
+  Misses(std::span<const Observation> told, std::span<const ExperimentTarget> targets)
+      : told_(told), targets_(targets) {
+    std::vector<double> least(targets.size(), kInfinity);
+    for (const Observation& one : told) {
+      double& of_its = least[static_cast<std::size_t>(one.experiment)];
+      if (!one.failed) of_its = std::min(of_its, one.value);
+    }
+    for (const Observation& one : told) {
+      const auto e = static_cast<std::size_t>(one.experiment);
+      miss_.push_back(one.failed                   ? kInfinity
+                      : targets[e].image.width > 0 ? MissOfImage(one, least[e])
+                                                   : MissOfNumbers(one, targets[e].scalars));
+    }
+  }
+
+  double At(const Eigen::VectorXd& point) const {
+    double sum = 0, weights = 0;
+    for (std::size_t e = 0; e < targets_.size(); ++e) {
+      if (targets_[e].weight == 0) continue;  // it is held out
+      sum += targets_[e].weight * AtOne(point, static_cast<int>(e));
+      weights += targets_[e].weight;
+    }
+    return sum / weights;
+  }
+
+ private:
+  // The mean of the evaluations of an experiment there that give something.
+  double AtOne(const Eigen::VectorXd& point, int experiment) const {
+    double sum = 0, num = 0;
+    bool is_evaluated = false;
+    for (std::size_t i = 0; i < told_.size(); ++i) {
+      if (told_[i].experiment != experiment || !SamePoint(told_[i].point, point)) continue;
+      is_evaluated = true;
+      if (!std::isfinite(miss_[i])) continue;
+      sum += miss_[i];
+      num += 1;
+    }
+    if (!is_evaluated) return kNotEvaluated;
+    return num > 0 ? std::min(sum / num, kNotEvaluated / 2) : kNothing;
+  }
+
+  std::span<const Observation> told_;
+  std::span<const ExperimentTarget> targets_;
+  std::vector<double> miss_;
+};
+
 }  // namespace
 
 std::vector<Observation> WithMisses(std::span<const Observation> told,
                                     std::span<const ExperimentTarget> targets) {
+  const Misses misses(told, targets);
   std::vector<Observation> all(told.begin(), told.end());
-  std::erase_if(all, [](const Observation& one) { return one.failed; });
-  std::vector<double> least(targets.size(), kInfinity);
-  for (const Observation& one : all) {
-    double& of_its = least[static_cast<std::size_t>(one.experiment)];
-    of_its = std::min(of_its, one.value);
-  }
-  std::vector<double> miss;
-  for (const Observation& one : all) {
-    const auto e = static_cast<std::size_t>(one.experiment);
-    const ExperimentTarget& target = targets[e];
-    miss.push_back(target.image.width > 0 ? MissOfImage(one, least[e])
-                                          : MissOfNumbers(one, target.scalars));
-  }
-  for (Observation& one : all) {
-    double sum = 0, num = 0;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      if (!SamePoint(all[j].point, one.point)) continue;
-      sum += miss[j];
-      num += 1;
-    }
-    one.value = sum / num;
-  }
+  for (Observation& one : all) one.value = misses.At(one.point);
   return all;
 }
 

@@ -9,9 +9,11 @@
 
 namespace talus::optimizer {
 
-// The evaluations that did not fail, with their miss in place of the objective: 1 + the mean of the
-// numbers' squared misfits, in their errors; of an image the square of its objective over the least
-// one of its experiment. Evaluations of several experiments at one point share their mean.
+// The evaluations with the miss of their point in place of the objective, the mean over the
+// experiments by their weights: 1 + the mean of the numbers' squared misfits, in their errors; of
+// an image the square of its objective over the least one of its experiment. Behind all others
+// stand points that an experiment has not been evaluated at, and behind these those that it gives
+// nothing at, because it fails there or a number does not exist.
 std::vector<Observation> WithMisses(std::span<const Observation> told,
                                     std::span<const ExperimentTarget> targets);
 

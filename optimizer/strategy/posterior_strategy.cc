@@ -140,19 +140,13 @@ void PosteriorStrategy::CountSuccesses(std::size_t experiment, Posterior& poster
   for (std::size_t i = 0; i < told.size(); ++i) {
     points.row(static_cast<Eigen::Index>(i)) = told[i]->point;
   }
-  const auto count = [&](const auto& gives) {
-    Eigen::VectorXd worked(points.rows());
-    std::ranges::transform(told, worked.begin(), [&](const Observation* one) {
-      return !one->failed && gives(*one) ? 1.0 : 0.0;
-    });
-    SuccessModel model(points, worked);
-    if (!model.always()) posterior.CountSuccesses(experiment, std::move(model));
-  };
-  const std::size_t num_scalars = targets_[experiment].scalars.size();
-  if (num_scalars == 0) return count([](const Observation&) { return true; });
-  for (std::size_t s = 0; s < num_scalars; ++s) {
-    count([&](const Observation& one) { return std::isfinite(one.scalars[s]); });
-  }
+  Eigen::VectorXd worked(points.rows());
+  std::ranges::transform(told, worked.begin(), [&](const Observation* one) {
+    const auto exists = [](double number) { return std::isfinite(number); };
+    return !one->failed && std::ranges::all_of(one->scalars, exists) ? 1.0 : 0.0;
+  });
+  SuccessModel model(points, worked);
+  if (!model.always()) posterior.CountSuccesses(experiment, std::move(model));
 }
 
 Posterior PosteriorStrategy::MakePosterior() {

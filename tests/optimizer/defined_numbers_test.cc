@@ -45,22 +45,40 @@ TEST(DefinedNumbers, TheAnswerKeepsToWhereTheyExist) {
   EXPECT_GT(level.tail(2).minCoeff(), 0.9);
 }
 
-// Too few for a model, and none of the first: by value, which numbers do not have, the first
-// evaluation would be the best.
-TEST(DefinedNumbers, WithoutAModelTheBestOnesAreThoseThatMeetThem) {
-  const ExperimentTarget drum{.name = "drum", .scalars = {{"angle", 40, 0.5}}};
-  const ExperimentTarget box{.name = "box", .scalars = {{"slope", 10, 1}}};
-  PosteriorStrategy strategy({.scale_factors = {1}, .seed = 1}, {.num_parameters = 2}, {drum, box});
-  const auto tell = [&](double at, int experiment, double number) {
-    strategy.Tell(
-        {.point = Eigen::Vector2d(at, at), .experiment = experiment, .scalars = {number}});
-  };
-  tell(0.2, 0, 20), tell(0.2, 1, 10);
-  tell(0.4, 0, kNone), tell(0.4, 1, 11);
-  tell(0.6, 0, 39), tell(0.6, 1, 9);
+// Too few for a model: by value, which numbers do not have, the first evaluation would be the best.
+class Unmodelled : public testing::Test {
+ protected:
+  // As a campaign tells it: without its only number an evaluation has failed.
+  static void Tell(PosteriorStrategy& strategy, double at, int experiment, double number) {
+    strategy.Tell({.point = Eigen::Vector2d(at, at),
+                   .experiment = experiment,
+                   .failed = std::isnan(number),
+                   .scalars = {number}});
+  }
+  static PosteriorStrategy Make(double weight_of_box = 1) {
+    const ExperimentTarget drum{.name = "drum", .scalars = {{"angle", 40, 0.5}}};
+    const ExperimentTarget box{
+        .name = "box", .scalars = {{"slope", 10, 1}}, .weight = weight_of_box};
+    return {{.scale_factors = {1}, .seed = 1}, {.num_parameters = 2}, {drum, box}};
+  }
+};
+
+TEST_F(Unmodelled, TheBestPointIsTheOneThatMeetsAllExperiments) {
+  PosteriorStrategy strategy = Make();
+  Tell(strategy, 0.2, 0, 20), Tell(strategy, 0.2, 1, 10);
+  Tell(strategy, 0.4, 0, kNone), Tell(strategy, 0.4, 1, 11);  // no angle there
+  Tell(strategy, 0.6, 0, 39), Tell(strategy, 0.6, 1, 9);
+  Tell(strategy, 0.8, 0, 40);  // the box has not been simulated
   const Answer answer = strategy.Recommend();
   EXPECT_FALSE(answer.posterior);
   EXPECT_EQ(answer.point, Eigen::Vector2d(0.6, 0.6));
+}
+
+TEST_F(Unmodelled, WhatIsHeldOutDoesNotCount) {
+  PosteriorStrategy strategy = Make(0);
+  Tell(strategy, 0.2, 0, 40), Tell(strategy, 0.2, 1, 20);
+  Tell(strategy, 0.6, 0, 39), Tell(strategy, 0.6, 1, 10);
+  EXPECT_EQ(strategy.Recommend().point, Eigen::Vector2d(0.2, 0.2));
 }
 
 // Twice beside each other, at the same place: one chance result does not decide.

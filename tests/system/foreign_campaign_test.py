@@ -83,7 +83,7 @@ class ForeignCampaign(unittest.TestCase):
         (folder / "campaign.json").write_text(json.dumps(spec | {"budget": {"simulations": 16}}))
         (folder / "deck/run.sh").write_text(CONE.replace("heap.csv", "cone.csv"))
         said = self.talus("resume", folder / "run")
-        self.assertIn("they are run again", said)
+        self.assertIn("run again", said)
         self.assertIn("failed            0\n", self.talus("status", folder / "run"))
 
     def test_card_and_answer_are_of_the_deck(self):

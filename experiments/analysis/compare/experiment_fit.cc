@@ -119,7 +119,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   row.is_confirmed = confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
   if (row.is_confirmed) {
     row.simulated = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +
-                    base::Counted(confirmed->num_trials, "simulation") +
+                    base::Counted(confirmed->scalars[index].num_trials, "simulation") +
                     (row.simulated.empty() ? "" : "; " + row.simulated);
   }
   if (std::isfinite(fit.off)) {

@@ -129,8 +129,9 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kSearchMisses:
       return MissesText(a);
     case AlarmKind::kConfirmationFailed:
-      return "all " + base::Counted(std::lround(a.value.value_or(0)), "simulation") +
-             " of the recommended set with fresh seeds failed (the last: " + a.reason.value_or("") +
+      return "all " + base::Counted(std::lround(a.value.value_or(0)), "simulation") + " of " +
+             experiment +
+             " by the recommended set with fresh seeds failed (the last: " + a.reason.value_or("") +
              "): nothing stands on this answer before the cause is known";
     case AlarmKind::kWorseThanObserved:
       return "trial " + std::to_string(a.trial.value_or(0)) +

@@ -18,12 +18,12 @@ enum class AlarmKind {
   kDisagree,     // the experiments pull apart by `value`, `experiment` most
   kAllAlike,     // all `value` simulations of `experiment` gave the same
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
-                 // `share` of its powder's area, or its `number` by `value` standard errors;
-  // `undefined` where it has none; `scale_factor`, where grains are coarser than true
-  // ones; `parameter` as above
+                 // `share` of its powder's area, or its `number` by `value` standard errors, or
+                 // has none, as `undefined` says; `scale_factor`, where grains are coarser than
+                 // true ones; `parameter` as above
   kSearchMisses,         // the same, but another set may fit, for `reason`: the search is to blame
-  kConfirmationFailed,   // all `value` simulations of the recommended set with fresh seeds failed,
-                         // the last for `reason`
+  kConfirmationFailed,   // all `value` simulations of `experiment` by the recommended set with
+                         // fresh seeds failed, the last for `reason`
   kContradictsPrior,     // the posterior of `parameter` is `value` sd off its prior, `reason`
   kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective
   kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`

@@ -166,22 +166,31 @@ bool IsOf(const journal::TrialRecord& trial, const std::vector<ResultParameter>&
   });
 }
 
-// Where no simulation of the recommended set with fresh seeds succeeded.
+// Experiments of which no simulation of the recommended set with fresh seeds succeeded.
 std::vector<Alarm> FailureAlarms(const std::vector<journal::TrialRecord>& trials,
                                  const Answer& answer) {
-  int num_failed = 0;
-  std::string last;
-  for (const journal::TrialRecord& trial : trials) {
-    if (trial.kind != journal::TrialKind::kConfirm || !IsOf(trial, answer.parameters)) continue;
-    if (trial.status == journal::TrialStatus::kOk) return {};
-    if (trial.status != journal::TrialStatus::kFailed) continue;
-    ++num_failed;
-    last = trial.reason;
+  std::vector<Alarm> alarms;
+  for (std::size_t e = 0; e < answer.experiments.size(); ++e) {
+    int num_failed = 0, num_other = 0;
+    std::string last;
+    for (const journal::TrialRecord& trial : trials) {
+      const bool is_it = trial.kind == journal::TrialKind::kConfirm &&
+                         trial.experiment == static_cast<int>(e) && IsOf(trial, answer.parameters);
+      if (!is_it) continue;
+      if (trial.status != journal::TrialStatus::kFailed) {
+        ++num_other;
+        continue;
+      }
+      ++num_failed;
+      last = trial.reason;
+    }
+    if (num_failed == 0 || num_other > 0) continue;
+    alarms.push_back({.kind = AlarmKind::kConfirmationFailed,
+                      .experiment = answer.experiments[e].name,
+                      .value = static_cast<double>(num_failed),
+                      .reason = last});
   }
-  if (num_failed == 0) return {};
-  return {{.kind = AlarmKind::kConfirmationFailed,
-           .value = static_cast<double>(num_failed),
-           .reason = last}};
+  return alarms;
 }
 
 }  // namespace
@@ -354,6 +363,8 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   std::vector<Alarm>& alarms = answer.warnings;
   Append(AlikeAlarms(basis.trials, answer.experiments), alarms);
   Append(MissAlarms(answer), alarms);
+  // Without a posterior it has no prediction that would tell it apart.
+  std::erase_if(alarms, [&](const Alarm& a) { return a.experiment == basis.spec.hold_out; });
   Append(FailureAlarms(basis.trials, answer), alarms);
   Append(PredictionAlarms(answer), alarms);
   Append(SearchAlarms(answer, basis.trials, basis.references), alarms);

@@ -81,8 +81,10 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
     const base::Sample number = MetricSample(trials, scalar.name);
-    confirmed.scalars.push_back(
-        {.name = scalar.name, .mean = number.mean, .undefined = WhyUndefined(trials, scalar.name)});
+    confirmed.scalars.push_back({.name = scalar.name,
+                                 .num_trials = number.count,
+                                 .mean = number.mean,
+                                 .undefined = WhyUndefined(trials, scalar.name)});
   }
   return confirmed;
 }
@@ -114,7 +116,8 @@ void AddStandardErrors(const Planner& planner, const std::vector<Candidate>& sim
       }
       for (ResultScalar& scalar : confirmed.scalars) {
         const auto scatter = ScatterOf(planner, simulated, index, scalar.name);
-        scalar.standard_error = scatter.StandardError(confirmed.num_trials);
+        if (scalar.num_trials == 0) continue;
+        scalar.standard_error = scatter.StandardError(scalar.num_trials);
         scalar.degrees = scatter.degrees;
       }
     }

@@ -18,6 +18,7 @@ inline double OrZero(double error) { return std::isfinite(error) ? error : 0; } 
 // A number of an experiment, the mean over the confirming trials.
 struct ResultScalar {
   std::string name{};
+  int num_trials = 0;  // that have it
   double mean = kNotKnown;
   // The mean's, by the scatter within all sets that were simulated again; not known where each
   // has one trial.
@@ -26,7 +27,7 @@ struct ResultScalar {
   std::optional<std::string> undefined{};  // why none of the trials has a value
 
   static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
-  TALUS_FIELDS(name, mean, standard_error, degrees, undefined);
+  TALUS_FIELDS(name, num_trials, mean, standard_error, degrees, undefined);
 };
 
 // How the confirming trials of one experiment came out.

@@ -73,6 +73,7 @@ struct Checker {
 
   template <class Number>
   void RequireKnown(const Number& number, const std::string& place, std::string_view unit) {
+    if (!(number.Value() > 0)) return;  // it is missing, or refused already
     const bool has_scatter = number.values && number.values->size() > 1;
     const std::string value = base::ShortNumber(number.Value()) + (unit.empty() ? "" : " ");
     problems.Require(number.StandardError() < number.Value(),
