@@ -134,8 +134,8 @@ class Progress(unittest.TestCase):
         result = json.loads((self.folder / "out/result.json").read_text())
         value = result["parameters"][0]["value"]
         self.assertEqual(card["parameters"][0]["value"], value)
-        self.assertEqual(card["placeholders"]["sliding_friction"], value)  # of another engine's deck
-        self.assertEqual(card["given_with_them"]["scale_factor"], result["conditions"]["scale_factor"])
+        self.assertEqual(float(card["placeholders"]["sliding_friction"]), value)  # of another engine's deck
+        self.assertEqual(float(card["given_with_them"]["scale_factor"]), result["conditions"]["scale_factor"])
         both = talus("resume", str(self.folder / "out"), "--quiet", "--json")
         self.assertEqual(both.returncode, 2)
 
