@@ -36,6 +36,13 @@ double EdgeError(const surrogate::FieldCode& code, const std::vector<float>& fie
   return error / powder;
 }
 
+// Leaves so many, evenly in their order.
+void KeepSpread(std::vector<const Observation*>& list, std::size_t most) {
+  if (list.size() <= most) return;
+  for (std::size_t i = 0; i < most; ++i) list[i] = list[i * list.size() / most];
+  list.resize(most);
+}
+
 }  // namespace
 
 std::size_t PosteriorStrategy::Told::code() const {
@@ -129,24 +136,27 @@ ExperimentModel::Setup PosteriorStrategy::SetupOf(std::size_t experiment) const 
           .model_error = options_.model_error};
 }
 
-// Where the simulations of an experiment give what it has measured: they may crash, and a number
-// may not exist.
+// Where the simulations of an experiment give all that it has measured: they may crash, and a
+// number may not exist. One model for all numbers: what takes one away may take the others, too.
 void PosteriorStrategy::CountSuccesses(std::size_t experiment, Posterior& posterior) const {
-  std::vector<const Observation*> told;
-  for (const Observation& one : observations_) {
-    if (one.experiment == static_cast<int>(experiment)) told.push_back(&one);
-  }
-  Eigen::MatrixXd points(static_cast<Eigen::Index>(told.size()), domain_.num_parameters);
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = told[i]->point;
-  }
-  Eigen::VectorXd worked(points.rows());
-  std::ranges::transform(told, worked.begin(), [&](const Observation* one) {
+  std::vector<const Observation*> gave, failed;
+  for (const Observation& told : observations_) {
+    if (told.experiment != static_cast<int>(experiment)) continue;
     const auto exists = [](double number) { return std::isfinite(number); };
-    return !one->failed && std::ranges::all_of(one->scalars, exists) ? 1.0 : 0.0;
-  });
-  SuccessModel model(points, worked);
-  if (!model.always()) posterior.CountSuccesses(experiment, std::move(model));
+    const bool gives = !told.failed && std::ranges::all_of(told.scalars, exists);
+    (gives ? gave : failed).push_back(&told);
+  }
+  if (failed.empty()) return;
+  KeepSpread(gave, kMostEvaluations / 2);
+  KeepSpread(failed, kMostEvaluations / 2);
+  const auto num_gave = static_cast<Eigen::Index>(gave.size());
+  const auto num = num_gave + static_cast<Eigen::Index>(failed.size());
+  Eigen::MatrixXd points(num, domain_.num_parameters);
+  Eigen::VectorXd worked = Eigen::VectorXd::Zero(num);
+  worked.head(num_gave).setOnes();
+  gave.insert(gave.end(), failed.begin(), failed.end());
+  for (Eigen::Index i = 0; i < num; ++i) points.row(i) = gave[static_cast<std::size_t>(i)]->point;
+  posterior.CountSuccesses(experiment, SuccessModel(points, worked));
 }
 
 Posterior PosteriorStrategy::MakePosterior() {
