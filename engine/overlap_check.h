@@ -10,8 +10,8 @@ namespace talus::engine {
 
 struct SimulationState;  // engine/simulation_state.h
 
-// Of two spheres, one of which comes, over the smaller radius; and of one with a wall, over its
-// own.
+// The overlap of two spheres, one of which comes, over the smaller radius; and of one with a wall,
+// over its own.
 inline constexpr double kMaxOverlapAtStart = 0.25;
 
 // Reports spheres of a scene, valid in all else, that overlap so much that they would explode, or

@@ -45,7 +45,7 @@ void ValidateSpeed(const Particle& p, double time_step, double most, base::Probl
 // The same of a wall's prescribed motion, kMostLater, and the smallest radius that it meets.
 void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
                    base::Problems& problems);
-// Of a surface that moves out of itself at this speed [m/s] for what stands at `key`.
+// Refuses a surface that moves out of itself at this speed [m/s] for what stands at `key`.
 struct PassingSpeed {
   double speed = 0;            // [m/s]
   double smallest_radius = 0;  // of the spheres that it meets [m]

@@ -14,7 +14,7 @@ std::string UnitOfText(const json& value) {
   return value.is_string() ? std::string(UnitIn(value.get_ref<const std::string&>())) : "";
 }
 
-// Of a text, or of the first in a list that has one; "" where there is none.
+// The unit of a text, or of the first in a list that has one; "" where there is none.
 std::string FirstUnit(const json& value) {
   if (!value.is_array()) return UnitOfText(value);
   for (const json& entry : value) {

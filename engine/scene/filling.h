@@ -57,7 +57,7 @@ struct FillRequest {
   int max_sweeps = 1000;         // cap [-], > 0
   std::uint64_t seed = 1;
 
-  // Of grains of these radii [m], each of which must fit into the region.
+  // Asked for grains of these radii [m], each of which must fit into the region.
   void Validate(std::span<const double> radii, base::Problems& problems) const;
 };
 

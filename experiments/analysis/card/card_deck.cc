@@ -11,6 +11,7 @@
 #include "base/text/name.h"
 #include "engine/laws/material.h"
 #include "experiments/analysis/card/card_formats.h"
+#include "experiments/analysis/card/card_json.h"
 #include "experiments/trials/engines/case_values.h"
 
 namespace talus::analysis {
@@ -44,13 +45,7 @@ std::string DeckJson(const Card& card) {
       {"placeholders_are", kNothingConverted}};
   for (const auto& [name, value] : card.deck->placeholders) json["placeholders"][name] = value;
   for (const auto& [name, value] : card.deck->given) json["given_with_them"][name] = value;
-  for (const CardRange& r : card.ranges) {
-    json["parameters"].push_back({{"name", r.name},
-                                  {"unit", r.unit},
-                                  {"value", r.value},
-                                  {"low_90", base::ToJson(r.low)},
-                                  {"high_90", base::ToJson(r.high)}});
-  }
+  if (!card.ranges.empty()) json["parameters"] = RangesJson(card);
   for (const CardTest& test : card.tests) {
     json["tests"].push_back({{"name", test.name}, {"rig", base::ToJson(test.rig)}});
   }

@@ -8,10 +8,23 @@
 #include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
+#include "experiments/analysis/card/card_json.h"
 
 namespace talus::analysis {
 
 std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
+
+nlohmann::ordered_json RangesJson(const Card& card) {
+  nlohmann::ordered_json ranges;
+  for (const CardRange& r : card.ranges) {
+    ranges.push_back({{"name", r.name},
+                      {"unit", r.unit},
+                      {"value", r.value},
+                      {"low_90", base::ToJson(r.low)},
+                      {"high_90", base::ToJson(r.high)}});
+  }
+  return ranges;
+}
 
 std::string TestText(const CardTest& test) {
   const std::string name = base::OneLine(test.name) + ": ";
@@ -167,13 +180,7 @@ std::string JsonCard(const Card& card) {
     stated["between"] = {card.materials[pair.first].name, card.materials[pair.second].name};
     json["pairs"].push_back(std::move(stated));
   }
-  for (const CardRange& r : card.ranges) {
-    json["parameters"].push_back({{"name", r.name},
-                                  {"unit", r.unit},
-                                  {"value", r.value},
-                                  {"low_90", base::ToJson(r.low)},
-                                  {"high_90", base::ToJson(r.high)}});
-  }
+  if (!card.ranges.empty()) json["parameters"] = RangesJson(card);
   for (const CardSize& size : card.sizes) {
     json["sizes"].push_back({{"diameter_m", size.diameter}, {"volume_share", size.volume_share}});
   }

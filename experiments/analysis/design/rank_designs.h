@@ -11,7 +11,7 @@
 
 namespace talus::analysis {
 
-// Of each test: the ranges are wider than a posterior.
+// Sets of each test: the ranges are wider than a posterior.
 inline constexpr int kDesignSimulations = 32;
 
 // Tests made together.

@@ -183,7 +183,7 @@ std::string PosteriorLines(const Answer& result) {
          " % raw, " + base::ShortNumber(100 * p.tempered_coverage) + " % tempered\n";
 }
 
-// Of another engine only its deck knows the laws.
+// The laws of another engine are its deck's.
 std::string LawsText(const ResultConditions& c) {
   const std::string scale = "scale factor " + base::ShortNumber(c.scale_factor);
   if (!c.command.empty()) return scale + ", the deck of \"" + c.command + "\" and its laws";

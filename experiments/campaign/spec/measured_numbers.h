@@ -24,7 +24,7 @@ struct MeasuredNumber {
   std::optional<std::vector<double>> values{};  // SI, >= 0, in place of the two
 
   double Value() const { return values ? base::SampleOf(*values).mean : value.value_or(0); }
-  // Of a yes or no that was the same each time: that of one, over the root of their number.
+  // A yes or no that was the same each time has the error of one, over the root of their number.
   double StandardError() const {
     if (!values || values->size() < 2) return standard_error.value_or(0);
     const double scatter = base::SampleOf(*values).StandardError();

@@ -14,11 +14,11 @@ namespace {
 
 using rigs::Observable;
 
-// Of shear over normal stress: smooth beads have 0.2, and cohesion adds several normal stresses
-// where these are low.
+// The shear over the normal stress: smooth beads have 0.2, and cohesion adds several normal
+// stresses where these are low.
 constexpr double kMostRatio = 20;
 constexpr double kLeastRatio = 1 / kMostRatio;
-// Of a cohesion with its error, over the least normal stress: no cell tells it from none.
+// A cohesion with its error, over the least normal stress: no cell tells it from none.
 constexpr double kNoCohesion = 5e-3;
 constexpr double kFarOff = std::numbers::pi / 18;  // of two angles, beyond their errors [rad]
 

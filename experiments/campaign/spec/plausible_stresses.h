@@ -9,8 +9,8 @@
 
 namespace talus::campaign {
 
-// Of a shear cell; nothing where the experiment is none. `prefix` stands before a number's key:
-// "experiments[1].", or nothing.
+// What a shear cell measured; nothing where the experiment is none. `prefix` stands before a
+// number's key: "experiments[1].", or nothing.
 void CheckStresses(const ExperimentSpec& experiment, const std::string& prefix,
                    base::Problems& problems);
 

@@ -62,8 +62,8 @@ struct UsualError {
   double absolute = 0;  // angles in degrees, the others in SI
 };
 
-// Of a 0 or 1 that was seen once: the other one is four of them away, which is as good as excluded,
-// and no observation less.
+// The error of a 0 or 1 that was seen once: the other one is four of them away, which is as good as
+// excluded, and no observation less.
 inline constexpr double kYesNoError = 0.25;
 
 // What a number can be at all [SI]. A range that is predicted for it ends there: no run lies

@@ -16,7 +16,7 @@ struct GrainDoubt {
   std::string text;
 };
 
-// Of all spheres in the file, those that have fallen off the plate too: their median diameter by
+// All spheres in the file, those that have fallen off the plate too: their median diameter by
 // volume, by a factor of 1.5, and more mass than the powder has, by a factor of 1.2. Less is no
 // doubt: what has left the box is in no file.
 std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,

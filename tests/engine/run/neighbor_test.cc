@@ -248,7 +248,7 @@ TEST(SphereIndex, LooksAtFewWhereOneSphereIsLarge) {
   EXPECT_LT(num_looks, 60 * spheres.size());
 }
 
-// Of 28 chunks the first 14 hold 640 pairs each, a quarter of which touch, and the others 16.
+// The first 14 of 28 chunks hold 640 pairs each, a quarter of which touch, and the others 16.
 TEST(ContactList, SharesAreByWorkFromTheFirstStepAfterARestart) {
   ContactList list;
   list.chunks().resize(28);

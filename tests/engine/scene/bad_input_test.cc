@@ -158,7 +158,7 @@ TEST(BlowUp, ADivergingSphereIsNamedWithItsSpeed) {
               AllOf(HasSubstr("step "), HasSubstr("sphere 7 has a ")));
 }
 
-// Of one radius, 1 mm, in the room above the cloud.
+// Spheres of 1 mm in the room above the cloud.
 Particle Above(std::int64_t id, double height) {
   return {.id = id, .radius = 1e-3, .position = {0, 0, height}};
 }

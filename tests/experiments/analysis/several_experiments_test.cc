@@ -210,9 +210,10 @@ class Fit : public testing::Test {
     ResultConfirmed heap{.name = "heap", .num_trials = 2, .sad_mm2 = 0.6};
     heap.profile_sad_mm2 = 0.5;
     heap.over_floor = 0.714;
-    const ResultConfirmed tapped{.name = "tapped",
-                                 .num_trials = 2,
-                                 .scalars = {{.name = "tapped_density_kg_per_m3", .mean = 1500}}};
+    const ResultConfirmed tapped{
+        .name = "tapped",
+        .num_trials = 2,
+        .scalars = {{.name = "tapped_density_kg_per_m3", .num_trials = 2, .mean = 1500}}};
     result_.confirmed.resize(1);
     result_.confirmed[0].experiments = {heap, tapped};
   }
