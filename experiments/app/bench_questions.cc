@@ -79,8 +79,7 @@ void Check(const Question& question, const std::string& answer) {
 // grains are made so large. What is no number is said with the rest.
 void CheckUnit(const Question& question, const std::string& answer, base::Problems& problems) {
   if (question.dimension == kNone || !base::IsBareNumber(answer)) return;
-  problems.Add(question.flag,
-               "\"" + answer + "\" has no unit; write one, such as \"" + question.example + "\"");
+  problems.Add(question.flag, campaign::NoUnitText(answer, question.example));
 }
 
 // Until `check` lets the answer pass; `kept` where Enter is typed and may be.

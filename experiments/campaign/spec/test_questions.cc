@@ -175,9 +175,13 @@ std::string ExampleOf(const TestQuestion& question) {
   }
 }
 
+std::string NoUnitText(const std::string& answer, const std::string& example) {
+  return "\"" + answer + "\" has no unit; write one, such as \"" + example + "\"";
+}
+
 void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example) {
   if (dimension == base::Dimension::kNone || !base::UnitIn(answer).empty()) return;
-  throw base::ConfigError("\"" + answer + "\" has no unit; write one, such as \"" + example + "\"");
+  throw base::ConfigError(NoUnitText(answer, example));
 }
 
 std::string MeanOf(const std::string& text) {

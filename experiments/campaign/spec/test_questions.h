@@ -40,6 +40,9 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind);
 // An answer with its unit, such as the bench has it.
 std::string ExampleOf(const TestQuestion& question);
 
+// What is said of an answer without a unit.
+std::string NoUnitText(const std::string& answer, const std::string& example);
+
 // What people type has its unit: a bare 10 for a plate is seldom ten metres. Throws ConfigError.
 void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example);
 

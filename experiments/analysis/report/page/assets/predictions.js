@@ -14,6 +14,8 @@ const toldBy = (n) => n.surrogate === null ? "draws" : (n.surrogate.used ? "surr
   format(n.surrogate.scale_factor) : "draws") + " (" + formatUnit(n.surrogate.left_out, n.unit, 2) + " and " +
   formatUnit(n.surrogate.draws, n.unit, 2) + ")";
 
+const titleOf = (n) => n.title + (n.silent ? " (" + n.silent + ")" : "");
+
 // The numbers that the test is made for.
 function predictionLine(p) {
   const known = p.numbers.filter((n) => n.mean !== null), usual = known.filter((n) => n.usual);
@@ -44,7 +46,7 @@ function predictionCard(p) {
     table("Prediction of " + p.name, [{title: "Number", text: true}, {title: "Mean"}, {title: "90\u00a0% of runs"},
         {title: "Parameters, sd"}, {title: "Single run, sd"}, {title: "Parameters' share of the variance"},
         {title: "Told by", text: true}, {title: "Measured", text: true}],
-      p.numbers.map((n) => n.mean === null ? [n.title + (n.silent ? " (" + n.silent + ")" : ""), "–", "–", "–", "–", "–", "–", "–"] : [n.title + (n.silent ? " (" + n.silent + ")" : ""), formatUnit(n.mean, n.unit),
+      p.numbers.map((n) => n.mean === null ? [titleOf(n), "–", "–", "–", "–", "–", "–", "–"] : [titleOf(n), formatUnit(n.mean, n.unit),
         format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
         formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), toldBy(n), measuredThere(n)])),
     pictures.length ? element("div", {class: "grid two"}, pictures) : null);
