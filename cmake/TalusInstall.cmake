@@ -16,7 +16,7 @@ configure_package_config_file(cmake/talusConfig.cmake.in ${PROJECT_BINARY_DIR}/t
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/talusConfig.cmake ${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
+    cmake/FindOpenCVImgproc.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
 # Examples find their schema at ../../docs, in the source tree and installed.
 install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
 # What they link to stands where it does in the source tree.
