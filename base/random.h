@@ -24,7 +24,7 @@ class Random {
 
   std::uint64_t Next() { return Mix64(state_ += kGamma); }
 
-  // Uniform in (0, 1): 53 bits, never an end.
+  // Uniform in (0, 1]: 53 bits; never 0, and 1 once in 2⁵³.
   double Uniform() { return (static_cast<double>(Next() >> 11) + 0.5) * 0x1p-53; }
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
 

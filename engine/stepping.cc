@@ -141,7 +141,7 @@ MotionCheck SimulationState::Sweep() {
   assert(list.shares().num_chunks() == static_cast<std::int64_t>(chunks.size()));
   team->Run([&](int member) {
     const auto [begin, end] = list.shares().Of(member);
-    const std::int64_t moves_from = member == 0 ? 0 : std::min(begin + list.reach(), end);
+    const std::int64_t moves_from = list.MovesFrom(member);
     const Panel* last = begin < end ? &chunks[end - 1].panels.back() : nullptr;
     for (std::int64_t c = begin; c < end; ++c) {
       chunks[c].check = {0, true};

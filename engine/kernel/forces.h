@@ -5,6 +5,8 @@
 // of reach cost the distance test only.
 #pragma once
 
+#include <cstddef>
+
 #include "engine/kernel/batch.h"
 #include "engine/kernel/shapes.h"
 #include "engine/kernel/simd.h"
@@ -121,9 +123,11 @@ class Ahead {
   TALUS_INLINE Ahead(const StepView& step, const PanelView& panel)
       : step_(step), panel_(panel), next_row_(panel.fresh) {}
 
-  TALUS_INLINE void Block(const PairBlock* block) const {
+  // Where nothing touches, only which pairs a block has is read, as a rule.
+  TALUS_INLINE void Block(const PairBlock* block, bool remembers) const {
     const auto* line = reinterpret_cast<const char*>(block);
-    for (std::size_t at = 0; at < sizeof(PairBlock); at += 64) _mm_prefetch(line + at, _MM_HINT_T0);
+    const std::size_t size = remembers ? sizeof(PairBlock) : offsetof(PairBlock, spring);
+    for (std::size_t at = 0; at < size; at += 64) _mm_prefetch(line + at, _MM_HINT_T0);
   }
   TALUS_INLINE void Rows(std::int64_t first) {
     const std::int64_t wanted = first + (panel_.window_end - panel_.end) + kRowsAhead;
@@ -161,7 +165,7 @@ void Forces(const StepView& step, const PanelView& panel) {
     Batch<Law> batch(step, panel, constants);
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
-      ahead.Block(panel.blocks + at + 3);
+      ahead.Block(panel.blocks + at + 3, b + 3 >= num_blocks || panel.touching[at + 3] != 0);
       ahead.Rows(panel.blocks[at].first[0]);
       for (int lane = 0; lane < kBlock; lane += Floats::kWidth) {
         const Part part = PartAt(panel, run, b, lane);

@@ -273,6 +273,24 @@ void ContactList::Restored(const ListCounts& counts) {
   }
 }
 
+// Rows are free again when the last chunk that they reach into has moved. Those of a member's first
+// chunks wait for the members before; of the others, so many are in use that a few sets serve in
+// turn, which stay in the cache.
+std::int64_t ContactList::AssignRowSets() {
+  row_set_.resize(chunks_.size());
+  std::int64_t num_sets = 0;
+  for (int member = 0; member < shares_.num_members(); ++member) {
+    const auto [begin, end] = shares_.Of(member);
+    const std::int64_t moves_from = MovesFrom(member), in_turn = reach_ + 1;
+    for (std::int64_t c = begin; c < end; ++c) {
+      row_set_[c] = num_sets + std::min(c, moves_from) - begin +
+                    (c < moves_from ? 0 : (c - moves_from) % in_turn);
+    }
+    num_sets += std::min(moves_from + in_turn, end) - begin;
+  }
+  return num_sets;
+}
+
 void ContactList::PrepareForces(Team& team) {
   const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
   std::int64_t num_rows = 0;
@@ -287,18 +305,17 @@ void ContactList::PrepareForces(Team& team) {
       }
     }
   }
-  // Rows are free again when the last chunk that they reach into has been moved.
-  const std::int64_t num_sets = team.size() == 1 ? reach_ + 1 : num_chunks;
+  ShareChunks(team);
+  const std::int64_t num_sets = AssignRowSets();
   // Each member empties the rows that it will use, which also puts them into its own memory.
   const std::int64_t set_size = 8 * num_rows;
   ExtendWithRoom(force_rows_, set_size * num_sets, 0.0);
-  ShareChunks(team);
   ForChunks(team, shares_, [&](std::int64_t c) {
-    if (c < num_sets) std::fill_n(force_rows_.data() + c * set_size, set_size, 0.0);
+    std::fill_n(force_rows_.data() + set_size * row_set_[c], set_size, 0.0);
   });
   for (std::int64_t c = 0; c < num_chunks; ++c) {
     Chunk& chunk = chunks_[c];
-    chunk.forces = force_rows_.data() + 8 * num_rows * (c % num_sets);
+    chunk.forces = force_rows_.data() + set_size * row_set_[c];
     for (std::int64_t before = std::max<std::int64_t>(c - reach_, 0); before < c; ++before) {
       const Chunk& other = chunks_[before];
       if (other.window_end <= chunk.begin) continue;

@@ -7,6 +7,7 @@
 // every sum has one order. A large chunk is computed in panels, one after the other.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <span>
@@ -77,12 +78,15 @@ class ContactList {
   // holds is counted, so that members have equal work from the first step on.
   void Restored(const ListCounts& counts);
 
-  // How many chunks after its own a chunk's pairs reach into, at most.
-  std::int64_t reach() const { return reach_; }
+  // The first chunk of a member that moves as soon as its pairs are done: no chunk of the members
+  // before reaches into it. A member must do its chunks in their order, since they share force
+  // rows.
+  std::int64_t MovesFrom(int member) const {
+    const auto [begin, end] = shares_.Of(member);
+    return member == 0 ? begin : std::min(begin + reach_, end);
+  }
 
-  // Force rows and overhangs of the chunks as they are now. One thread computes a chunk and moves
-  // it before it goes to the next: then the chunks share a few sets of rows, which stay in the
-  // cache.
+  // Force rows and overhangs of the chunks as they are now.
   void PrepareForces(Team& team);
 
  private:
@@ -108,6 +112,7 @@ class ContactList {
   static void CutPanels(Chunk& chunk);
   void CutChunks(std::int64_t num_particles);
   void ShareChunks(const Team& team);
+  std::int64_t AssignRowSets();  // how many there are
   void FindAll(const RebuildInput& input);
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch);
@@ -126,7 +131,8 @@ class ContactList {
   std::vector<OldContact> old_;
   std::vector<Scratch> scratch_;
   AlignedVector<double> force_rows_;
-  std::int64_t reach_ = 0;
+  std::vector<std::int64_t> row_set_;  // of each chunk, in force_rows_
+  std::int64_t reach_ = 0;             // how many chunks after its own a chunk's pairs reach into
   std::vector<std::exception_ptr> errors_;  // of each chunk
 };
 

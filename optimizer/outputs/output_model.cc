@@ -51,23 +51,6 @@ surrogate::Evaluations RowsOf(const OutputData& data, const Levels& levels,
   return evaluations;
 }
 
-std::vector<std::size_t> Choose(const OutputData& data, std::span<const double> values, int count) {
-  std::vector<std::size_t> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (count <= kMostEvaluations) return order;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    if (data.level[a] != data.level[b]) return data.level[a] > data.level[b];
-    return values[a] < values[b];
-  });
-  constexpr std::size_t kHalf = kMostEvaluations / 2;
-  std::vector<std::size_t> chosen(order.begin(), order.begin() + kHalf);
-  std::vector<std::size_t> others(order.begin() + kHalf, order.end());
-  std::sort(others.begin(), others.end());
-  for (std::size_t i = 0; i < kHalf; ++i) chosen.push_back(others[i * others.size() / kHalf]);
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
-}
-
 }  // namespace
 
 double CompressionScale(const ScalarTarget& target) {
@@ -228,9 +211,27 @@ void OutputModel::AddFantasy(const Eigen::VectorXd& x, int level) {
   }
 }
 
-OutputData Modelled(const OutputData& data, std::span<const double> values, int count) {
+std::vector<std::size_t> RowsToModel(const OutputData& data, std::span<const double> misses,
+                                     int count) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (count <= kMostEvaluations) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (data.level[a] != data.level[b]) return data.level[a] > data.level[b];
+    return misses[a] < misses[b];
+  });
+  constexpr std::size_t kHalf = kMostEvaluations / 2;
+  std::vector<std::size_t> chosen(order.begin(), order.begin() + kHalf);
+  std::vector<std::size_t> others(order.begin() + kHalf, order.end());
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < kHalf; ++i) chosen.push_back(others[i * others.size() / kHalf]);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+OutputData Modelled(const OutputData& data, std::span<const std::size_t> rows) {
   OutputData modelled;
-  for (const std::size_t i : Choose(data, values, count)) {
+  for (const std::size_t i : rows) {
     modelled.points.push_back(data.points[i]);
     modelled.level.push_back(data.level[i]);
     if (!data.vectors.empty()) modelled.vectors.push_back(data.vectors[i]);

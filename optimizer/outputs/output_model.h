@@ -111,9 +111,11 @@ double CompressionScale(const ScalarTarget& target);  // Compress = asinh(value 
 // A Gaussian process costs the cube of its evaluations: beyond these an answer takes minutes.
 constexpr int kMostEvaluations = 400;
 
-// The first `count` of `data`, or kMostEvaluations of these: one half are those that tell the
-// answer most, of the finest scale factor and then of the lowest objective, and the other half are
-// spread evenly over the rest, in their order. `values` are the objectives, one an evaluation.
-OutputData Modelled(const OutputData& data, std::span<const double> values, int count);
+// Rows of the first `count` of `data`, or of kMostEvaluations of these: one half are those that
+// tell the answer most, of the finest scale factor and then of the lowest miss, and the other half
+// are spread evenly over the rest, in their order. `misses`: one an evaluation, not NaN.
+std::vector<std::size_t> RowsToModel(const OutputData& data, std::span<const double> misses,
+                                     int count);
+OutputData Modelled(const OutputData& data, std::span<const std::size_t> rows);
 
 }  // namespace talus::optimizer

@@ -15,6 +15,7 @@ constexpr double kReach = 0.35;       // between draws that are tried first, uni
 constexpr int kTriesFar = 10;         // of two parts that are further apart
 constexpr int kMostTries = 2000;      // of midpoints, each a density
 constexpr double kLeastShare = 0.02;  // of the draws
+constexpr double kRounding = 1e-9;    // of ln density, computed among other draws
 constexpr double kDip = 1.0;  // in ln density: a dip by less is the surrogate's own unevenness
 
 class Components {
@@ -90,7 +91,11 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
   Eigen::VectorXd density = posterior.LogDensity(draws);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if (density[i] >= sample.region_log_density) inside.push_back(i);
+    if (density[i] >= sample.region_log_density - kRounding) inside.push_back(i);
+  }
+  if (inside.empty()) {
+    inside.emplace_back();
+    density.maxCoeff(&inside.front());
   }
   draws = Eigen::MatrixXd(draws(inside, Eigen::all));
   const Eigen::MatrixXd places = draws(Eigen::all, posterior.asked());
@@ -115,10 +120,13 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
     members[components.Root(i)].push_back(static_cast<Eigen::Index>(i));
   }
   std::vector<PosteriorBranch> branches;
-  for (const auto& [root, rows] : members) {
+  const auto size = [](const auto& part) { return part.second.size(); };
+  const std::size_t largest = size(*std::ranges::max_element(members, {}, size));
+  for (const auto& part : members) {
+    const std::vector<Eigen::Index>& rows = part.second;
     PosteriorBranch branch =
         Describe(draws(rows, Eigen::all), places(rows, Eigen::all), density(rows), draws.rows());
-    if (branch.share < kLeastShare) continue;
+    if (branch.share < kLeastShare && size(part) < largest) continue;
     branch.point = posterior.WithTypicalNuisances(branch.point);
     branches.push_back(std::move(branch));
   }

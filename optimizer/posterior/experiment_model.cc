@@ -89,7 +89,8 @@ void ExperimentModel::MeasureImages() {
   matched_.head(num_modes) = std::max(0.25, factor) * noise;
   error_.head(num_modes) = matched_.head(num_modes) / heaps;
   // A share 1 - 1/n of the variance of n heaps lies among them and 1/n is their mean's.
-  const Eigen::VectorXd element = modes.basis.cwiseAbs2() * noise;
+  const Eigen::VectorXd element =
+      outputs_.ElementNoise() + modes.basis.cwiseAbs2() * (matched_.head(num_modes) - noise);
   objective_.emplace(setup_.code, target.image, modes, (1 - 1 / heaps) * element);
 }
 

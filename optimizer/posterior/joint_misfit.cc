@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "optimizer/posterior/residual_correlation.h"
 #include "optimizer/posterior/robust_misfit.h"
@@ -23,23 +24,27 @@ JointMisfit::JointMisfit(const Eigen::MatrixXd& stacked, const std::vector<int>&
   Temper(stacked);
 }
 
-// A residual that is not there counts as the mean of those that are.
+// A set that not all tests have been simulated at has the region of those outputs that it has.
 void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
-  std::vector<double> misfits;
+  std::vector<double> misfits;  // M over its nominal quantile
+  std::map<Eigen::Index, double> quantile;
   for (Eigen::Index i = 0; i < stacked.rows(); ++i) {
-    Eigen::VectorXd z = stacked.row(i);
-    const auto there = z.array().isFinite();
-    if (!there.any()) continue;
-    const double share = static_cast<double>(there.count()) / static_cast<double>(z.size());
-    z = there.select(z, 0);
-    misfits.push_back((inverse_root_ * z).squaredNorm() / share);
+    std::vector<Eigen::Index> there;
+    for (Eigen::Index k = 0; k < stacked.cols(); ++k) {
+      if (std::isfinite(stacked(i, k))) there.push_back(k);
+    }
+    if (there.empty()) continue;
+    const Eigen::VectorXd z = stacked(i, there);
+    const Eigen::MatrixXd shared = correlation_(there, there);
+    double& expected = quantile[z.size()];
+    if (expected == 0) expected = RobustQuantile(z.size(), kRegion);
+    misfits.push_back(shared.llt().matrixL().solve(z).squaredNorm() / expected);
   }
   coverage_.count = static_cast<int>(misfits.size());
   if (misfits.empty()) return;
-  const double expected = RobustQuantile(stacked.cols(), kRegion);
   const auto covered = [&](double temper) {
-    return static_cast<double>(std::count_if(misfits.begin(), misfits.end(),
-                                             [&](double m) { return m <= temper * expected; })) /
+    return static_cast<double>(
+               std::ranges::count_if(misfits, [&](double m) { return m <= temper; })) /
            static_cast<double>(misfits.size());
   };
   std::vector<double> sorted = misfits;
@@ -47,7 +52,7 @@ void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
   const auto at = std::min(
       sorted.size() - 1,
       static_cast<std::size_t>(std::ceil(kRegion * static_cast<double>(sorted.size()))) - 1);
-  temper_ = std::clamp(sorted[at] / expected * (1 + 1e-12), 1.0, kMostTemper);
+  temper_ = std::clamp(sorted[at] * (1 + 1e-12), 1.0, kMostTemper);
   coverage_.raw = covered(1);
   coverage_.tempered = covered(temper_);
 }

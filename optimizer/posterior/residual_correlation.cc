@@ -11,14 +11,18 @@ namespace {
 constexpr double kSharedError = 0.5;
 constexpr double kLeastEigenvalue = 0.05;
 
-// What pairs of outputs show of their correlation, and how much of it chance alone would show.
+// What pairs of outputs show of their correlation, and how much of it chance alone would show: a
+// correlation of one evaluation is always ±1, so one of few is taken to vary by no less than if
+// there were none.
 struct PairSums {
   double squares = 0;
   double variances = 0;
 
   void Add(double r, double count) {
+    constexpr double kFew = 4;
     squares += r * r;
-    variances += (1 - r * r) * (1 - r * r) / std::max(1.0, count - 1);
+    variances += std::max((1 - r * r) * (1 - r * r) / std::max(1.0, count - 1),
+                          count < kFew ? 1 / std::max(1.0, count) : 0);
   }
   // The shrinkage of least expected squared error, in [0, 1].
   double Shrinkage() const { return squares > 0 ? std::min(1.0, variances / squares) : 1; }

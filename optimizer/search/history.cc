@@ -32,19 +32,15 @@ History MakeHistory(std::span<const Observation> told, int num_parameters) {
   return history;
 }
 
-Repeats FindRepeats(const History& history) {
-  Repeats repeats;
-  bool differs = false;
-  for (Eigen::Index i = 1; i < history.values.size(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (!SamePoint(history.points.row(i), history.points.row(j))) continue;
-      ++repeats.num_repeats;
-      differs = differs || history.values[i] != history.values[j];
-      break;
-    }
+void Repeats::CountLast(const History& history) {
+  const Eigen::Index last = history.values.size() - 1;
+  const Eigen::VectorXd point = history.points.row(last);
+  for (Eigen::Index j = 0; j < last; ++j) {
+    if (!SamePoint(point, history.points.row(j))) continue;
+    ++num_repeats;
+    differs = differs || history.values[last] != history.values[j];
+    return;
   }
-  repeats.deterministic = repeats.num_repeats > 0 && !differs;
-  return repeats;
 }
 
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,

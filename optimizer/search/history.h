@@ -22,11 +22,13 @@ History MakeHistory(std::span<const Observation> told, int num_parameters);
 
 // What repeated points say of the noise.
 struct Repeats {
-  int num_repeats = 0;         // evaluations at a point evaluated before
-  bool deterministic = false;  // there are repeats, and all gave the same value
-};
+  int num_repeats = 0;   // evaluations at a point evaluated before
+  bool differs = false;  // one of them gave another value
 
-Repeats FindRepeats(const History& history);
+  bool deterministic() const { return num_repeats > 0 && !differs; }
+  // The last evaluation of `history` is new.
+  void CountLast(const History& history);
+};
 
 // The answer of a strategy that has no model: the best evaluation, taken at its word. `how` names
 // the strategy in Answer::model.

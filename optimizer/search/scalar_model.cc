@@ -8,7 +8,8 @@
 namespace talus::optimizer {
 namespace {
 
-// The largest of 8, 11, 16, 23, 32, … (factors of √2) up to n; n itself below 8.
+// The largest of 8, 11, 16, 23, 32, … (8 · 2^(k/2), rounded) that is reached before or with n in
+// full: 11 for 12 evaluations, as 8 √2 is above 11. n itself below 8.
 int MilestoneBefore(int n) {
   if (n < 8) return n;
   const double steps = std::floor(2 * std::log2(n / 8.0) + 1e-9);
@@ -28,19 +29,13 @@ surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64
           .seed = seed};
 }
 
-surrogate::GaussianProcess FitTransformed(const Eigen::MatrixXd& points,
-                                          const Eigen::VectorXd& values,
-                                          const ValueTransform& transform,
-                                          const surrogate::GaussianProcessOptions& options) {
-  return surrogate::GaussianProcess::Fit(
-      {.points = points,
-       .values = values.unaryExpr([&](double v) { return transform.Forward(v); })},
-      options);
+Eigen::VectorXd Transformed(const Eigen::VectorXd& values, const ValueTransform& transform) {
+  return values.unaryExpr([&](double v) { return transform.Forward(v); });
 }
 
-// Log densities of the values, not of their transforms: ln|dt/dv| = -t is added.
-double Jacobian(const surrogate::GaussianProcess& process, bool transformed) {
-  return transformed ? -process.values().sum() : 0;
+// Log densities of the values, not of their transforms t: ln|dt/dv| = -t is added for each.
+double Jacobian(const Eigen::VectorXd& transforms, bool transformed) {
+  return transformed ? -transforms.sum() : 0;
 }
 
 // Each predicted from the others. Near an exact minimum ln(v - least + δ) falls the steeper the
@@ -54,7 +49,7 @@ double LeftOutDensity(const surrogate::GaussianProcess& process, bool transforme
   if (transformed) variance += (resolution * (-values).exp()).square();
   const double density =
       -0.5 * ((values - left_out.mean.array()).square() / variance + variance.log()).sum();
-  return density + Jacobian(process, transformed);
+  return density + Jacobian(values, transformed);
 }
 
 }  // namespace
@@ -80,7 +75,10 @@ ScalarFit ScalarFitter::Fit(const History& history, bool deterministic, FitFor p
   options.start = choice.hyper;
   options.effort.num_starts = 1;
   options.effort.num_searches = 1;
-  return {transform, FitTransformed(history.points, history.values, transform, options)};
+  return {
+      transform,
+      surrogate::GaussianProcess::Fit(
+          {.points = history.points, .values = Transformed(history.values, transform)}, options)};
 }
 
 void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, bool deterministic) {
@@ -94,9 +92,11 @@ void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, b
     if (share > 0 && !deterministic) break;
     const ValueTransform transform = TransformOf(values, share);
     if (share > 0 && transform.delta == 0) break;  // constant values
-    const auto process = FitTransformed(points, values, transform, options);
+    const Eigen::VectorXd transforms = Transformed(values, transform);
+    const auto process =
+        surrogate::GaussianProcess::Fit({.points = points, .values = transforms}, options);
     if (share == 0) resolution = std::sqrt(process.noise_variance());
-    const double likelihood = process.LogPosterior() + Jacobian(process, share > 0);
+    const double likelihood = process.LogPosterior() + Jacobian(transforms, share > 0);
     const double left_out = LeftOutDensity(process, share > 0, resolution);
     const std::array merits{likelihood, left_out};  // by FitFor
     for (std::size_t purpose = 0; purpose < merits.size(); ++purpose) {

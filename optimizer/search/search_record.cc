@@ -35,7 +35,7 @@ void SearchRecord::Tell(const Observation& observation) {
   told_.push_back(WithoutImage(observation));
   design_.MarkEvaluated(observation.point);
   history_ = MakeHistory(told_, domain_.num_parameters);
-  repeats_ = FindRepeats(history_);
+  if (!observation.failed) repeats_.CountLast(history_);
   feasibility_ = Feasibility(history_);
 }
 

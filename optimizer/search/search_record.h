@@ -71,7 +71,7 @@ class SearchRecord {
   const std::vector<Observation>& told() const { return told_; }
   const History& history() const { return history_; }
   const Feasibility& feasibility() const { return feasibility_; }
-  bool deterministic() const { return options_.exact || repeats_.deterministic; }
+  bool deterministic() const { return options_.exact || repeats_.deterministic(); }
   // Whether a model may go through every value. Rows of a table are results of single simulations:
   // each may be exact and yet rough, other seeds beside each other.
   bool noise_free() const { return deterministic() && !domain_.IsList(); }

@@ -16,15 +16,23 @@ constexpr double kNarrowed = 0.5;  // … and its variance over theirs, as each 
 constexpr double kBroad = 0.05;    // weight of the broad Gaussian
 constexpr double kBroader = 4;     // … and its variance over that of the draws
 constexpr double kLeast = 1e-8;    // variance in the unit cube: draws that coincide have some
+constexpr double kReach = 3.5;     // of a kernel, in its standard deviations
 
 Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd centred = rows.rowwise() - rows.colwise().mean();
   return centred.transpose() * centred / static_cast<double>(rows.rows() - 1);
 }
 
+// Back into [0, 1], as if both ends were mirrors.
+double Folded(double u) {
+  const double twice = std::abs(std::remainder(u, 2.0));
+  return std::min(twice, 1.0);
+}
+
 }  // namespace
 
-DrawsDensity::DrawsDensity(Eigen::MatrixXd draws) : mean_(draws.colwise().mean()) {
+DrawsDensity::DrawsDensity(Eigen::MatrixXd draws)
+    : num_draws_(draws.rows()), mean_(draws.colwise().mean()) {
   const Eigen::MatrixXd covariance = CovarianceOf(draws);
   sd_ = (covariance.diagonal().array() + kLeast).sqrt().matrix().transpose();
   centres_ = std::move(draws);
@@ -34,6 +42,29 @@ DrawsDensity::DrawsDensity(Eigen::MatrixXd draws) : mean_(draws.colwise().mean()
   }
   kernels_.push_back(MakeKernel(kBroader * covariance, kBroad));
   centres_ = Stack(centres_, mean_);
+  for (Eigen::Index k = 0; k < centres_.cols(); ++k) Mirror(k);
+}
+
+// Adds the images of the kernels that reach the faces of a coordinate, those of images included:
+// at an edge of the cube a kernel has three.
+void DrawsDensity::Mirror(Eigen::Index coordinate) {
+  std::vector<Eigen::RowVectorXd> images;
+  for (Eigen::Index i = 0; i < centres_.rows(); ++i) {
+    for (const double face : {0.0, 1.0}) {
+      const Kernel& kernel = kernels_[static_cast<std::size_t>(i)];
+      const double off = face - centres_(i, coordinate);
+      if (std::abs(off) > kReach * kernel.root.row(coordinate).norm()) continue;
+      Kernel image = kernel;
+      image.root.row(coordinate) *= -1;
+      image.inverse_root.col(coordinate) *= -1;
+      images.emplace_back(centres_.row(i));
+      images.back()[coordinate] += 2 * off;
+      kernels_.push_back(std::move(image));
+    }
+  }
+  Eigen::Index row = centres_.rows();
+  centres_.conservativeResize(std::ssize(kernels_), Eigen::NoChange);
+  for (const Eigen::RowVectorXd& image : images) centres_.row(row++) = image;
 }
 
 DrawsDensity::Kernel DrawsDensity::MakeKernel(const Eigen::MatrixXd& covariance, double weight) {
@@ -85,13 +116,14 @@ Eigen::VectorXd DrawsDensity::LogDensity(const Eigen::MatrixXd& points) const {
 }
 
 Eigen::VectorXd DrawsDensity::Draw(base::Random& random) const {
-  const auto num_draws = static_cast<double>(centres_.rows() - 1);
   const bool broad = random.Uniform() < kBroad;
+  const double at = random.Uniform() * static_cast<double>(num_draws_);
   const Eigen::Index k =
-      broad ? centres_.rows() - 1 : static_cast<Eigen::Index>(random.Uniform() * num_draws);
+      broad ? num_draws_ : std::min(static_cast<Eigen::Index>(at), num_draws_ - 1);
   Eigen::VectorXd z(centres_.cols());
   for (double& one : z) one = random.Normal();
-  return centres_.row(k).transpose() + kernels_[static_cast<std::size_t>(k)].root * z;
+  return (centres_.row(k).transpose() + kernels_[static_cast<std::size_t>(k)].root * z)
+      .unaryExpr(&Folded);
 }
 
 }  // namespace talus::optimizer

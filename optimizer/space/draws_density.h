@@ -4,7 +4,8 @@
 // A posterior may be a bent, thin valley or several. One covariance for all kernels would fill the
 // bend, and one Gaussian for all draws would miss it; kernels of their own follow it. A twentieth
 // of the mass is one broad Gaussian, so that draws which lie where an observation does not want
-// them can be outvoted.
+// them can be outvoted. What a kernel would have beyond a face of the unit cube is mirrored back:
+// else draws that pile up there, as those of a posterior may, would have half their density.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +19,10 @@ class DrawsDensity {
  public:
   static constexpr Eigen::Index kFewest = 50;  // draws that a density is made of
 
-  // One draw a row, kFewest at least.
+  // One draw a row, kFewest at least, in the unit cube.
   explicit DrawsDensity(Eigen::MatrixXd draws);
 
-  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const;  // one point a row
+  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const;  // one point a row, in the cube
   Eigen::VectorXd Draw(base::Random& random) const;
 
   Eigen::Index dimension() const { return centres_.cols(); }
@@ -36,8 +37,10 @@ class DrawsDensity {
   };
   static Kernel MakeKernel(const Eigen::MatrixXd& covariance, double weight);
   Eigen::MatrixXd CovarianceRound(Eigen::Index draw) const;
+  void Mirror(Eigen::Index coordinate);
 
-  Eigen::MatrixXd centres_;  // the draws, and last the centre of the broad Gaussian
+  Eigen::Index num_draws_;
+  Eigen::MatrixXd centres_;  // the draws, the centre of the broad Gaussian, and mirror images
   Eigen::RowVectorXd mean_;  // of the draws
   Eigen::RowVectorXd sd_;
   std::vector<Kernel> kernels_;

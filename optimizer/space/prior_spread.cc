@@ -8,10 +8,11 @@ namespace talus::optimizer {
 std::vector<double> PriorValues(const Domain& domain, Eigen::Index coordinate) {
   constexpr Eigen::Index kDraws = 2000;
   const Eigen::MatrixXd draws = domain.prior.Draw(kDraws, domain.num_parameters, 0);
-  std::vector<double> values{0, 1};
+  std::vector<double> values;
   for (const double u : draws.col(coordinate)) {
     if (u >= 0 && u <= 1) values.push_back(u);
   }
+  if (values.size() < 2) return {0, 1};
   std::sort(values.begin(), values.end());
   return values;
 }

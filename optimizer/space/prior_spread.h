@@ -8,7 +8,8 @@
 
 namespace talus::optimizer {
 
-// The prior's values of a coordinate inside the cube, ascending; two at least.
+// The prior's values of a coordinate inside the cube, ascending; the ends of the cube where it has
+// hardly any there.
 std::vector<double> PriorValues(const Domain& domain, Eigen::Index coordinate);
 
 // Their standard deviation over that of the uniform density, at most 1.

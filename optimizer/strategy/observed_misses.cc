@@ -13,17 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNotEvaluated = 1e9;  // above every miss that can be told from others
 constexpr double kNothing = 1e18;
 
-// A number that does not exist is as far off as can be.
-double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& measured) {
-  double sum = 0;
-  for (std::size_t s = 0; s < measured.size(); ++s) {
-    if (!std::isfinite(one.scalars[s])) return kInfinity;
-    const double off = (one.scalars[s] - measured[s].value) / measured[s].standard_error;
-    sum += off * off;
-  }
-  return 1 + sum / static_cast<double>(measured.size());
-}
-
 double MissOfImage(const Observation& one, double least) {
   if (one.value <= least) return 1;
   return least > 0 ? one.value * one.value / (least * least) : kInfinity;
@@ -78,6 +67,16 @@ class Misses {
 };
 
 }  // namespace
+
+double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& measured) {
+  double sum = 0;
+  for (std::size_t s = 0; s < measured.size(); ++s) {
+    if (!std::isfinite(one.scalars[s])) return kInfinity;
+    const double off = (one.scalars[s] - measured[s].value) / measured[s].standard_error;
+    sum += off * off;
+  }
+  return 1 + sum / static_cast<double>(measured.size());
+}
 
 std::vector<Observation> WithMisses(std::span<const Observation> told,
                                     std::span<const ExperimentTarget> targets) {

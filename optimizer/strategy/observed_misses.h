@@ -9,9 +9,13 @@
 
 namespace talus::optimizer {
 
+// How far the numbers of an evaluation are off: 1 + their mean squared misfit, in their errors;
+// infinite where one does not exist.
+double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& measured);
+
 // The evaluations with the miss of their point in place of the objective, the mean over the
-// experiments by their weights: 1 + the mean of the numbers' squared misfits, in their errors; of
-// an image the square of its objective over the least one of its experiment. Behind all others
+// experiments by their weights: of numbers as above, of an image the square of its objective over
+// the least one of its experiment. Behind all others
 // stand points that an experiment has not been evaluated at, and behind these those that it gives
 // nothing at, because it fails there or a number does not exist.
 std::vector<Observation> WithMisses(std::span<const Observation> told,

@@ -12,6 +12,7 @@
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
 #include "optimizer/search/size_to_fit.h"
+#include "optimizer/strategy/observed_misses.h"
 
 namespace talus::optimizer {
 namespace {
@@ -90,7 +91,9 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   }
   // An image that was lost leaves nothing to learn from.
   if (observation.failed || (!told.codes.empty() && observation.field.empty())) return;
-  told.values.push_back(observation.value);
+  const ExperimentTarget& target = targets_[static_cast<std::size_t>(observation.experiment)];
+  told.misses.push_back(told.codes.empty() ? MissOfNumbers(observation, target.scalars)
+                                           : observation.value);
   told.place.push_back(observations_.size() - 1);
   for (std::size_t c = 0; c < told.by_code.size(); ++c) {
     OutputData& data = told.by_code[c];
@@ -105,26 +108,31 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   }
 }
 
-// Whether the evaluations that are fitted to tell anything: images that are all the same have no
+// Whether the first `number` evaluations tell anything: images that are all the same have no
 // modes, and a number that is undefined in all of them, or in all but one, no surrogate.
-bool PosteriorStrategy::HasOutputs(const OutputData& data) {
-  const auto count = static_cast<std::size_t>(SizeToFit(data.size(), kFewest));
-  const auto vectors = std::span(data.vectors).first(std::min(count, data.vectors.size()));
-  const bool images_differ = std::ranges::any_of(
-      vectors, [&](const Eigen::VectorXd& vector) { return vector != vectors.front(); });
-  const auto scalars = std::span(data.scalars).first(count);
-  const std::size_t num_scalars = scalars.front().size();
+bool PosteriorStrategy::Told::TellsBy(int number) const {
+  const OutputData& data = by_code[code()];
+  const std::vector<std::size_t> rows = RowsToModel(data, misses, number);
+  const std::size_t num_scalars = data.scalars[rows.front()].size();
   for (std::size_t s = 0; s < num_scalars; ++s) {
     const auto num_defined = std::ranges::count_if(
-        scalars, [&](const std::vector<double>& all) { return std::isfinite(all[s]); });
+        rows, [&](std::size_t row) { return std::isfinite(data.scalars[row][s]); });
     if (num_defined < 2) return false;
   }
-  return images_differ || num_scalars > 0;
+  if (num_scalars > 0) return true;
+  return std::ranges::any_of(
+      rows, [&](std::size_t row) { return data.vectors[row] != data.vectors[rows.front()]; });
+}
+
+OutputData PosteriorStrategy::Told::FirstOf(int number) const {
+  const OutputData& data = by_code[code()];
+  return Modelled(data, RowsToModel(data, misses, number));
 }
 
 bool PosteriorStrategy::CanModel() const {
   return std::all_of(told_.begin(), told_.end(), [](const Told& told) {
-    return told.size() >= kFewest && HasOutputs(told.by_code[told.code()]);
+    return told.size() >= kFewest && told.TellsBy(SizeToFit(told.size(), kFewest)) &&
+           told.TellsBy(told.size());
   });
 }
 
@@ -166,11 +174,10 @@ Posterior PosteriorStrategy::MakePosterior() {
     Told& told = told_[e];
     const std::size_t code = told.code();
     const ExperimentModel::Setup setup = SetupOf(e);
-    const OutputData& all = told.by_code[code];
-    data.push_back(Modelled(all, told.values, all.size()));
+    data.push_back(told.FirstOf(told.size()));
     const int count = SizeToFit(told.size(), kFewest);
     if (!told.state || told.num_fitted != count || told.fitted_code != code) {
-      const ExperimentModel fitted(setup, Modelled(all, told.values, count), nullptr);
+      const ExperimentModel fitted(setup, told.FirstOf(count), nullptr);
       told.state = fitted.state();
       told.num_fitted = count;
       told.fitted_code = code;

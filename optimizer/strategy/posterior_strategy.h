@@ -83,7 +83,7 @@ class PosteriorStrategy : public Strategy {
   struct Told {
     std::vector<std::shared_ptr<const surrogate::FieldCode>> codes;
     std::vector<OutputData> by_code;  // one a code; one without code where there is no image
-    std::vector<double> values;       // objectives
+    std::vector<double> misses;       // objectives; of a test without image that of its numbers
     std::vector<std::size_t> place;   // of each, among all that were told
     double edge_error = 0;            // Σ |image - its column edges| / Σ image
     std::vector<double> cost;         // Σ over told evaluations [core s], one a level
@@ -93,12 +93,13 @@ class PosteriorStrategy : public Strategy {
     std::size_t fitted_code = 0;
 
     std::size_t code() const;
+    bool TellsBy(int number) const;
+    OutputData FirstOf(int number) const;  // as they are modelled
     int size() const { return by_code.front().size(); }
   };
 
   static constexpr int kFewest = 6;  // evaluations of an experiment that a model can stand on
 
-  static bool HasOutputs(const OutputData& data);
   Proposal Next(std::span<const Proposal> asked);
   // Whether the stopping rule has something to judge.
   bool HasDesign();

@@ -49,11 +49,9 @@ std::vector<SurrogateAhead> PosteriorStrategy::SurrogatesAhead(const Eigen::Matr
     const Told& told = told_[e];
     const double least = 1 / ahead[e].times_finest;
     ahead[e].left.setConstant(least);
-    const std::ptrdiff_t count = NumEarlier(told);
-    if (count < kFewest) continue;
-    const OutputData data =
-        Modelled(told.by_code[told.code()], told.values, static_cast<int>(count));
-    const ExperimentModel before(SetupOf(e), data, &*told.state);
+    const auto count = static_cast<int>(NumEarlier(told));
+    if (count < kFewest || !told.TellsBy(count)) continue;
+    const ExperimentModel before(SetupOf(e), told.FirstOf(count), &*told.state);
     const auto typical = [&](const ExperimentModel& model) -> Eigen::ArrayXd {
       return model.Outputs(draws).variance.colwise().mean().transpose();
     };

@@ -319,7 +319,7 @@ TEST(PosteriorStrategy, FailedSimulationsAreNotProposedAgain) {
 // A drum that never shows a surface has no angle: the search goes on with its design, and answers
 // what it can.
 TEST(PosteriorStrategy, ANumberThatIsNeverDefinedEndsNoSearch) {
-  const Twin twin;
+  const Twin twin{.stop_share = 1e-9};
   auto strategy = twin.Make();
   for (int i = 0; i < 24; ++i) {
     Observation told = twin.Simulate(strategy->AskAt(1, {}).front(), i);
@@ -329,6 +329,8 @@ TEST(PosteriorStrategy, ANumberThatIsNeverDefinedEndsNoSearch) {
     EXPECT_FALSE(strategy->Recommend().posterior.has_value());
   }
   EXPECT_TRUE(strategy->Recommend().posterior.has_value());
+  // None of the first two thirds had it: of them there is no model to compare with.
+  EXPECT_TRUE(strategy->Shortfall().has_value());
 }
 
 TEST(PosteriorStrategy, TwoExperimentsAreEachSimulatedAndDecideTogether) {

@@ -49,6 +49,15 @@ TEST(ResidualCorrelation, TestsThatShareNoRowsHaveTheSlightPriorOnly) {
   EXPECT_NEAR(correlation(0, 3), 0.5 / 6, 1e-12);
 }
 
+// Two numbers of one evaluation always correlate by ±1.
+TEST(ResidualCorrelation, OneSharedRowTellsHardlyAnything) {
+  Eigen::MatrixXd z = Residuals(41, 0);
+  z.topRightCorner(20, 3).setConstant(kNaN);
+  z.bottomLeftCorner(20, 3).setConstant(kNaN);
+  const Eigen::MatrixXd correlation = ResidualCorrelation(z, {0, 0, 0, 1, 1, 1});
+  EXPECT_NEAR(correlation(0, 3), 0.5 / 6, 1e-12);
+}
+
 TEST(ResidualCorrelation, IsPositiveDefiniteWhereOutputsAreTheSame) {
   Eigen::MatrixXd z = Residuals(200, 0);
   z.col(2) = z.col(0);
