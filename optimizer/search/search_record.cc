@@ -36,7 +36,7 @@ void SearchRecord::Tell(const Observation& observation) {
   design_.MarkEvaluated(observation.point);
   history_ = MakeHistory(told_, domain_.num_parameters);
   if (!observation.failed) repeats_.CountLast(history_);
-  feasibility_ = Feasibility(history_);
+  feasibility_.reset();
 }
 
 // Enough points from elsewhere, such as the trials of another campaign, make the design needless.
@@ -104,7 +104,7 @@ Eigen::VectorXd SearchRecord::MostFeasible(std::span<const Eigen::VectorXd> aske
           ? domain.candidates
           : Inside(domain, RSequence(kNumCandidates, domain_.num_parameters, StepSeed(asked)));
   for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
-    const double probability = feasibility_.Probability(candidates.row(i));
+    const double probability = feasibility().Probability(candidates.row(i));
     if (probability <= highest) continue;
     highest = probability;
     best = candidates.row(i);

@@ -70,7 +70,11 @@ class SearchRecord {
   const SurrogateOptions& options() const { return options_; }
   const std::vector<Observation>& told() const { return told_; }
   const History& history() const { return history_; }
-  const Feasibility& feasibility() const { return feasibility_; }
+  // Fitted when it is first asked for, since a resumed search is told hundreds of observations at
+  // once; so ask before threads do.
+  const Feasibility& feasibility() const {
+    return feasibility_ ? *feasibility_ : feasibility_.emplace(history_);
+  }
   bool deterministic() const { return options_.exact || repeats_.deterministic(); }
   // Whether a model may go through every value. Rows of a table are results of single simulations:
   // each may be exact and yet rough, other seeds beside each other.
@@ -89,7 +93,7 @@ class SearchRecord {
   std::vector<Observation> told_;
   History history_;
   Repeats repeats_;
-  Feasibility feasibility_;
+  mutable std::optional<Feasibility> feasibility_;
 };
 
 }  // namespace talus::optimizer

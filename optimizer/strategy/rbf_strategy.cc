@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "optimizer/search/describe_minimum.h"
 #include "optimizer/search/history.h"
@@ -23,7 +24,8 @@ double NearestDistance(const Eigen::VectorXd& x, const Eigen::MatrixXd& points,
 
 }  // namespace
 
-surrogate::RadialBasis RbfStrategy::Fit() const {
+const surrogate::RadialBasis& RbfStrategy::Fit() {
+  if (fit_) return *fit_;
   using surrogate::RadialBasis;
   using surrogate::RadialFunction;
   const History& history = record().history();
@@ -31,7 +33,7 @@ surrogate::RadialBasis RbfStrategy::Fit() const {
   RadialBasis plate = RadialBasis::Fit(history.points, history.values, RadialFunction::kThinPlate);
   const double of_cubic = (cubic.LeaveOneOut() - history.values).squaredNorm();
   const double of_plate = (plate.LeaveOneOut() - history.values).squaredNorm();
-  return of_plate < of_cubic ? plate : cubic;
+  return fit_.emplace(of_plate < of_cubic ? std::move(plate) : std::move(cubic));
 }
 
 Eigen::VectorXd RbfStrategy::Lowest(const surrogate::RadialBasis& basis) const {
@@ -53,15 +55,16 @@ Eigen::VectorXd RbfStrategy::Lowest(const surrogate::RadialBasis& basis) const {
 }
 
 Proposal RbfStrategy::ByModel(const Points& asked) {
-  const surrogate::RadialBasis basis = Fit();
+  const surrogate::RadialBasis& basis = Fit();
   const History& history = record().history();
   const std::size_t index = record().told().size() + asked.size();
   const double value_weight = kValueWeight[index % kValueWeight.size()];
   const Eigen::VectorXd lowest = Lowest(basis);
   const double least = basis.Predict(lowest);
   const double range = std::max(history.values.maxCoeff() - least, 1e-300);
+  const Feasibility& feasibility = record().feasibility();
   const auto values = [&](const Eigen::MatrixXd& points) {
-    Eigen::VectorXd result = -record().feasibility().Penalty(points);
+    Eigen::VectorXd result = -feasibility.Penalty(points);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const Eigen::VectorXd x = points.row(i);
       result[i] += value_weight * (basis.Predict(x) - least) / range -
@@ -81,7 +84,7 @@ Proposal RbfStrategy::ByModel(const Points& asked) {
 Answer RbfStrategy::Recommend() {
   Answer answer = BestObserved(record().told(), record().domain(), "radial basis functions");
   if (record().history().size() < 2) return answer;
-  const surrogate::RadialBasis basis = Fit();
+  const surrogate::RadialBasis& basis = Fit();
   answer.model = "radial basis functions of " + std::to_string(record().history().size()) +
                  " evaluations" + (basis.smoothing() > 0 ? ", smoothed" : "") +
                  "; they say nothing of their own uncertainty";

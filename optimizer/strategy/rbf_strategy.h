@@ -3,6 +3,8 @@
 // by the other [regis2007].
 #pragma once
 
+#include <optional>
+
 #include "optimizer/strategy/surrogate_strategy.h"
 #include "surrogate/process/radial_basis.h"
 
@@ -19,11 +21,13 @@ class RbfStrategy : public SurrogateStrategy {
 
  private:
   Proposal ByModel(const Points& asked) override;
-  void Update(const Observation&) override {}
+  void Update(const Observation&) override { fit_.reset(); }
 
-  // Fits the function whose values, left out one by one, are predicted better.
-  surrogate::RadialBasis Fit() const;
+  // That of the two functions whose values, left out one by one, are predicted better.
+  const surrogate::RadialBasis& Fit();
   Eigen::VectorXd Lowest(const surrogate::RadialBasis& basis) const;
+
+  std::optional<surrogate::RadialBasis> fit_;  // a batch of proposals is made from one
 };
 
 }  // namespace talus::optimizer
