@@ -1,8 +1,12 @@
 #include "experiments/analysis/predict/draws.h"
 
 #include <limits>
+#include <optional>
 
+#include "base/error.h"
 #include "base/random.h"
+#include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/answer/standing_answer.h"
 
 namespace talus::analysis {
 namespace {
@@ -34,6 +38,21 @@ Eigen::MatrixXd MeansOf(const Eigen::MatrixXd& draws, const std::vector<Eigen::I
     if (counts[c] > 0) centres.row(c) = sums.row(c) / counts[c];
   }
   return centres;
+}
+
+Eigen::VectorXd RecommendedPoint(const campaign::JointView& view) {
+  const std::optional<campaign::Answer> answer = campaign::StandingAnswer(view.folder.root);
+  if (!answer) {
+    throw base::ConfigError(view.folder.root.string() +
+                            ": has no result yet; without --recommended, draws of what its trials "
+                            "say so far are taken");
+  }
+  Eigen::VectorXd point(static_cast<Eigen::Index>(answer->parameters.size()));
+  for (Eigen::Index i = 0; i < point.size(); ++i) {
+    const campaign::ResultParameter& p = answer->parameters[static_cast<std::size_t>(i)];
+    point[i] = p.Range().ToUnit(p.value);
+  }
+  return point;
 }
 
 }  // namespace
@@ -83,6 +102,12 @@ Eigen::MatrixXd PosteriorDraws(const campaign::JointView& view) {
 
 WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
   return ChooseDraws(PosteriorDraws(view), count, view.spec.seed);
+}
+
+Eigen::VectorXd OneSet(const campaign::JointView& view, const PredictOptions& options) {
+  if (options.recommended) return RecommendedPoint(view);
+  return campaign::Filled(campaign::ReadSet(view.space, options.set),
+                          *campaign::StrategyOf(view, view.Answered()));
 }
 
 }  // namespace talus::analysis
