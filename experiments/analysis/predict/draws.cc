@@ -47,12 +47,7 @@ Eigen::VectorXd RecommendedPoint(const campaign::JointView& view) {
                             ": has no result yet; without --recommended, draws of what its trials "
                             "say so far are taken");
   }
-  Eigen::VectorXd point(static_cast<Eigen::Index>(answer->parameters.size()));
-  for (Eigen::Index i = 0; i < point.size(); ++i) {
-    const campaign::ResultParameter& p = answer->parameters[static_cast<std::size_t>(i)];
-    point[i] = p.Range().ToUnit(p.value);
-  }
-  return point;
+  return campaign::RecommendedPoint(*answer);
 }
 
 }  // namespace

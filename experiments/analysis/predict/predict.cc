@@ -32,6 +32,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::analysis {
 namespace {
@@ -197,9 +198,7 @@ class Predictor {
 
   campaign::FolderCase FolderCaseOf(const PredictionRuns& runs, std::size_t run) const {
     const PlannedRun& planned = runs.planned(run);
-    const std::vector<double>& point = design_.points[planned.draw];
-    const auto unit =
-        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    const Eigen::VectorXd unit = optimizer::VectorOf(design_.points[planned.draw]);
     std::string name = base::FileNumber(static_cast<std::int64_t>(planned.draw) + 1) + "_" +
                        std::to_string(planned.seed + 1);
     if (planned.scale_factor != ScaleFactor()) {
@@ -260,9 +259,7 @@ class Predictor {
   }
 
   campaign::FolderCase TestCase(const std::string& name, std::size_t experiment) const {
-    const std::vector<double>& point = design_.points.front();
-    const auto unit =
-        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    const Eigen::VectorXd unit = optimizer::VectorOf(design_.points.front());
     return {
         .folder = root_ / "tests" / base::FileWord(name),
         .rig_case = campaign::CaseOf(view_.spec,
@@ -285,12 +282,9 @@ class Predictor {
                           .last_trial = design_.last_trial,
                           .notes = case_.notes};
     for (std::size_t d = 0; d < design_.points.size(); ++d) {
-      const std::vector<double>& point = design_.points[d];
       prediction.draws.push_back(
           {.weight = design_.weights[d],
-           .values = campaign::FreeValues(
-               view_.space, Eigen::Map<const Eigen::VectorXd>(
-                                point.data(), static_cast<Eigen::Index>(point.size())))});
+           .values = campaign::FreeValues(view_.space, optimizer::VectorOf(design_.points[d]))});
     }
     return prediction;
   }

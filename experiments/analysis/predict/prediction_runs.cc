@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/sample.h"
 #include "base/text/joined.h"
 #include "experiments/analysis/predict/prediction_pictures.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
@@ -19,12 +20,6 @@ namespace {
 const journal::MetricRecord* Find(const trials::TrialOutput& output, const std::string& name) {
   const auto found = std::ranges::find(output.scalars, name, &journal::MetricRecord::name);
   return found == output.scalars.end() ? nullptr : &*found;
-}
-
-double MeanOfRuns(const std::vector<double>& values) {
-  return values.empty() ? kUnknown
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                              static_cast<double>(values.size());
 }
 
 // The error of the mean that a draw's runs, or a surrogate in their place, say it has.
@@ -59,7 +54,7 @@ PredictedNumber Describe(std::string name, const DrawValues& values, const Sprea
   Take(spread, number);
   for (const std::vector<double>& runs : values.runs) {
     number.num_defined += static_cast<int>(runs.size());
-    number.by_draw.push_back(MeanOfRuns(runs));
+    number.by_draw.push_back(base::SampleOf(runs).mean);
   }
   return number;
 }
