@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/text/name.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
