@@ -1,5 +1,6 @@
 #include "base/problems.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "base/error.h"
@@ -43,6 +44,11 @@ void Problems::Require(bool ok, std::string_view path, double value, std::string
 
 void Problems::Require(bool ok, std::string_view path, std::string_view message) {
   if (!ok && !unread_.contains(FullPath(path))) Add(path, std::string(message));
+}
+
+void Problems::RequirePositive(std::string_view path, std::optional<double> value) {
+  Require(!value || (*value > 0 && std::isfinite(*value)), path, value.value_or(0),
+          "must be positive");
 }
 
 std::string Problems::Text() const {

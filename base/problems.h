@@ -47,6 +47,9 @@ class Problems {
   // could not be read.
   void Require(bool ok, std::string_view path, std::string_view message);
 
+  // A finite number above zero; nothing is asked of one that is not given.
+  void RequirePositive(std::string_view path, std::optional<double> value);
+
   // A whole number from `low` to `high`, both included; nothing is asked of one that is not given.
   void RequireFromTo(std::string_view path, std::optional<int> value, int low, int high) {
     Require(!value || (*value >= low && *value <= high), path, value.value_or(0),

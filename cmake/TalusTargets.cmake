@@ -74,20 +74,17 @@ function(talus_unite_folders target)
   endforeach()
 endfunction()
 
-# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED]
-#   [TOGETHER ...])
-# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
-# talus_library_headers. TOGETHER: as in talus_unite_folders.
+# talus_add_library(name [PUBLIC_HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED] [TOGETHER ...])
+# PUBLIC_HEADERS are installed (docs/library.md). PRECOMPILED: with talus_library_headers. TOGETHER: as in
+# talus_unite_folders.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE;TOGETHER" ${ARGN})
+  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;SOURCES;PUBLIC;PRIVATE;TOGETHER" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(talus_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_sources(talus_${name}
-    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_PUBLIC_HEADERS}
-    PRIVATE FILE_SET internal_headers TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
-      FILES ${ARG_HEADERS})
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_PUBLIC_HEADERS})
   target_link_libraries(talus_${name} PUBLIC talus::compile_options ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE})
   if(ARG_PRECOMPILED)

@@ -7,17 +7,14 @@ namespace talus::engine {
 
 void ValidatePress(const Press& press, int num_walls, base::Problems& problems) {
   const auto known = [&](int wall) { return wall >= 0 && wall < num_walls; };
-  const auto positive = [&](const char* key, double value) {
-    problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
-  };
   problems.Require(!press.walls.empty() && std::ranges::all_of(press.walls, known), "walls",
                    "must name walls of the scene, one at least");
   problems.Require(std::abs(base::Norm(press.direction) - 1) < 1e-9, "direction",
                    "must be a unit vector");
   problems.Require(press.force >= 0 && std::isfinite(press.force), "force", press.force,
                    "must not be negative");
-  positive("mass", press.mass);
-  positive("damping", press.damping);
+  problems.RequirePositive("mass", press.mass);
+  problems.RequirePositive("damping", press.damping);
   problems.Require(std::isfinite(press.speed), "speed", press.speed, "must be finite");
 }
 

@@ -4,8 +4,9 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <string_view>
 #include <vector>
+
+#include "base/text/base64.h"
 
 namespace talus::engine {
 namespace {
@@ -19,22 +20,6 @@ void Append(std::string& text, T value) {
   text.append(digits, end);
 }
 
-std::string Base64(std::string_view bytes) {
-  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kLetters[group >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
-}
-
 // One DataArray: its size in bytes (UInt64), then its values, in base64 as one block.
 template <class T>
 std::string Array(const char* type, const char* name, int num_components,
@@ -46,7 +31,7 @@ std::string Array(const char* type, const char* name, int num_components,
   std::string text = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
                      "\" NumberOfComponents=\"" + std::to_string(num_components) +
                      "\" format=\"binary\">\n";
-  return text + Base64(bytes) + "\n</DataArray>\n";
+  return text + base::Base64(bytes) + "\n</DataArray>\n";
 }
 
 std::vector<double> Flat(std::span<const Particle> particles, Vec3 Particle::*field) {

@@ -221,8 +221,7 @@ void FillRegion::Validate(base::Problems& problems) const {
   const auto positive = [&](const char* key, const std::optional<double>& value, bool needed) {
     problems.Require(value.has_value() || !needed, key, "is missing");
     problems.Require(!value || needed, key, "does not belong to this shape");
-    if (value)
-      problems.Require(*value > 0 && std::isfinite(*value), key, *value, "must be positive");
+    problems.RequirePositive(key, value);
   };
   positive("diameter", diameter, !box);
   positive("width_x", width_x, box);
@@ -235,8 +234,7 @@ void FillRequest::Validate(std::span<const double> radii, base::Problems& proble
   problems.Within("region", [&] { region.Validate(problems); });
   problems.Require(solid_fraction > 0 && solid_fraction <= 0.6, "solid_fraction", solid_fraction,
                    "must be in (0, 0.6]");
-  problems.Require(max_overlap > 0 && std::isfinite(max_overlap), "max_overlap", max_overlap,
-                   "must be positive");
+  problems.RequirePositive("max_overlap", max_overlap);
   problems.Require(max_sweeps > 0, "max_sweeps", max_sweeps, "must be positive");
   if (!problems.empty()) return;
   const double narrowest = region.Narrowest();

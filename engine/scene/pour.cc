@@ -87,12 +87,9 @@ struct Pour::Surroundings {
 };
 
 void PourSpec::Validate(base::Problems& problems) const {
-  const auto positive = [&](const char* key, double value) {
-    problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
-  };
-  positive("mass", mass);
-  positive("mouth_diameter", mouth_diameter);
-  if (rate) positive("rate", *rate);
+  problems.RequirePositive("mass", mass);
+  problems.RequirePositive("mouth_diameter", mouth_diameter);
+  problems.RequirePositive("rate", rate);
   problems.Require(scatter >= 0 && std::isfinite(scatter), "scatter", scatter,
                    "must not be negative");
   problems.Require(start >= 0 && std::isfinite(start), "start", start, "must not be negative");

@@ -15,10 +15,6 @@
 namespace talus::engine {
 namespace {
 
-void RequirePositive(base::Problems& problems, const std::string& key, double value) {
-  problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
-}
-
 constexpr double kUsualRayleighFraction = 0.15;
 constexpr double kDensest = 0.64;  // solid fraction of a random packing of equal spheres
 
@@ -192,23 +188,23 @@ int MaterialIndex(const SceneSpec& spec, const std::string& name) {
 }
 
 void SphereSpec::Validate(base::Problems& problems) const {
-  RequirePositive(problems, "diameter", diameter);
+  problems.RequirePositive("diameter", diameter);
   problems.Require(base::IsFinite(position), "position", "must be finite");
   problems.Require(base::IsFinite(velocity), "velocity", "must be finite");
   problems.Require(base::IsFinite(angular_velocity), "angular_velocity", "must be finite");
 }
 
 void FillSpec::Validate(base::Problems& problems) const {
-  RequirePositive(problems, "mass", mass);
+  problems.RequirePositive("mass", mass);
   problems.Require(solid_fraction > 0 && solid_fraction <= 0.6, "solid_fraction", solid_fraction,
                    "must be in (0, 0.6]");
 }
 
 void StopSpec::Validate(base::Problems& problems) const {
-  if (time) RequirePositive(problems, "time", *time);
-  if (steps) RequirePositive(problems, "steps", static_cast<double>(*steps));
-  if (energy_fraction) RequirePositive(problems, "energy_fraction", *energy_fraction);
-  RequirePositive(problems, "hold_time", hold_time);
+  problems.RequirePositive("time", time);
+  problems.RequirePositive("steps", steps);
+  problems.RequirePositive("energy_fraction", energy_fraction);
+  problems.RequirePositive("hold_time", hold_time);
   problems.Require(energy_fraction || hold_time == StopSpec{}.hold_time, "hold_time",
                    "is of energy_fraction, which is not given");
   problems.Require(time || steps, "", "must have time or steps, so that the run ends");
@@ -223,7 +219,7 @@ void SectionSpec::Validate(base::Problems& problems) const {
 }
 
 void OutputSpec::Validate(base::Problems& problems) const {
-  if (interval) RequirePositive(problems, "interval", *interval);
+  problems.RequirePositive("interval", interval);
   problems.Require(interval || sections.empty(), "sections", "need outputs.interval");
   for (std::size_t i = 0; i < times.size(); ++i) {
     problems.Require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
@@ -281,7 +277,7 @@ void SceneSpec::Validate(base::Problems& problems) const {
     problems.Require(!(outputs.times[i] > *stop.time), "outputs.times[" + std::to_string(i) + "]",
                      outputs.times[i], "must not be after stop.time");
   }
-  if (time_step) RequirePositive(problems, "time_step", *time_step);
+  problems.RequirePositive("time_step", time_step);
   problems.Require(!time_step || !rayleigh_fraction, "rayleigh_fraction",
                    "decides the time step, and so does time_step; keep one of them");
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");

@@ -124,8 +124,8 @@ void RequireGiven(base::Problems& problems, const char* key, const std::optional
   const bool is_cut_off = owner == SizeKind::kUniform && s.kind != SizeKind::kMono;
   if (value && s.kind != owner && !is_cut_off) {
     problems.Add(key, "does not belong to sizes of kind \"" + kind + "\"; remove it");
-  } else if (value) {
-    problems.Require(*value > 0 && std::isfinite(*value), key, *value, "must be positive");
+  } else {
+    problems.RequirePositive(key, value);
   }
 }
 

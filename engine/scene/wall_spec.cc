@@ -93,10 +93,8 @@ void ValidateTaps(const TapSpec& taps, base::Problems& problems) {
   problems.Require(taps.start >= 0 && std::isfinite(taps.start), "taps.start", taps.start,
                    "must not be negative");
   problems.RequireFromTo("taps.count", taps.count, 1, kMostTaps);
-  problems.Require(taps.height > 0 && std::isfinite(taps.height), "taps.height", taps.height,
-                   "must be positive");
-  problems.Require(taps.interval > 0 && std::isfinite(taps.interval), "taps.interval",
-                   taps.interval, "must be positive");
+  problems.RequirePositive("taps.height", taps.height);
+  problems.RequirePositive("taps.interval", taps.interval);
 }
 
 WallShape BuildShape(const WallSpec& spec) {

@@ -5,23 +5,14 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/field.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/journal/journal.h"
-#include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-
-double ToNative(const journal::ParameterRecord& record, double unit) {
-  optimizer::Parameter parameter{.name = record.name, .low = record.low, .high = record.high};
-  if (record.scale == base::NameOf(optimizer::Scale::kLog)) {
-    parameter.scale = optimizer::Scale::kLog;
-  }
-  return parameter.ToNative(unit);
-}
 
 double IfKnown(double seconds) { return std::isfinite(seconds) ? seconds : 0; }
 
@@ -62,7 +53,7 @@ FormerTest FormerTestOf(const DesignFolder& design) {
                       .scale_factor = record->scale_factor};
     if (trial.unit.size() != test.parameters.size()) continue;
     for (std::size_t k = 0; k < trial.unit.size(); ++k) {
-      trial.native.push_back(ToNative(test.parameters[k], trial.unit[k]));
+      trial.native.push_back(SearchedParameter(test.parameters[k]).ToNative(trial.unit[k]));
     }
     test.trials.push_back(std::move(trial));
   }

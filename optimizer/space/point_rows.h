@@ -1,12 +1,17 @@
-// Sets of points: as models take them, one a row, and as lists.
+// Points, and sets of them: as models take them, one a row, and as lists.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
+
+inline Eigen::VectorXd VectorOf(const std::vector<double>& point) {
+  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+}
 
 // Those of the rows that the domain contains, at its levels; of a domain that is a list, the
 // candidates nearest to them.

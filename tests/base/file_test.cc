@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
 #include "base/files/output_folder.h"
+#include "tests/peak_memory.h"
 
 namespace talus::base {
 namespace file_test {
@@ -58,13 +58,6 @@ TEST_F(FileTest, TailIsTheLastBytes) {
   EXPECT_EQ(ReadTail(folder_ / "f", 2), "45");
   EXPECT_EQ(ReadTail(folder_ / "f", 9), "12345");
   EXPECT_EQ(ReadTail(folder_ / "absent", 9), "");
-}
-
-// The most memory that this process has ever used.
-long PeakMegabytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 // A log of 1 GB was read as a whole for its last lines.

@@ -9,6 +9,7 @@
 #include "base/json/json_schema.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "tests/error_in.h"
 
 namespace talus::base {
 
@@ -98,12 +99,7 @@ struct Powder {
 Outer Load(std::string_view text) { return LoadOptions<Outer>(ParseJson(text, "spec.json")); }
 
 std::string ErrorOf(std::string_view text) {
-  try {
-    Load(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { Load(text); });
 }
 
 TEST(FieldList, NamesTheKeysInTheOrderOfTheListAndReadsThemBack) {
@@ -181,13 +177,8 @@ TEST(Json, ValueThatCannotBeReadIsReportedOnce) {
 
 // A bare number is in SI: 640 ± 0.01 kg/m³ is hardly what was meant.
 TEST(Json, ABareNumberBesideOneWithAUnitIsRefused) {
-  const auto error = [](const char* text) -> std::string {
-    try {
-      LoadOptions<Measured>(ParseJson(text, "spec.json"));
-      return "";
-    } catch (const ConfigError& refused) {
-      return refused.what();
-    }
+  const auto error = [](const char* text) {
+    return ErrorIn([&] { LoadOptions<Measured>(ParseJson(text, "spec.json")); });
   };
   EXPECT_THAT(error(R"({"value": "0.64 g/mL", "sd": 0.01})"),
               HasSubstr("sd: is 0.01 without a unit beside one in g/mL; a bare number is in SI: "

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/replaced.h"
+#include "base/text/base64.h"
 #include "base/text/csv.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
@@ -39,6 +40,14 @@ TEST(NumberText, WhatPeopleReadHasNoPowersOfTen) {
 TEST(NumberText, FileNumbersSortUpToTenThousand) {
   EXPECT_EQ(FileNumber(7), "0007");
   EXPECT_EQ(FileNumber(12345), "12345");
+}
+
+TEST(Base64, GivesTheVectorsOfRfc4648) {
+  EXPECT_EQ(Base64(""), "");
+  EXPECT_EQ(Base64("f"), "Zg==");
+  EXPECT_EQ(Base64("fo"), "Zm8=");
+  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(Base64("\xff\xfe\xfd"), "//79");
 }
 
 TEST(Replaced, EverywhereAndWhatIsPutInIsLeftAlone) {

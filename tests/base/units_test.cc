@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/error_in.h"
 
 namespace talus::base {
 namespace units_test {
@@ -26,12 +27,7 @@ TEST(Units, QuantitiesAsPeopleWriteThem) {
 }
 
 std::string ErrorOf(std::string_view text, Dimension dimension) {
-  try {
-    ParseQuantity(text, dimension);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { ParseQuantity(text, dimension); });
 }
 
 TEST(Units, WrongOnesAreNamedWithThoseThatFit) {

@@ -16,6 +16,7 @@
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/simulate/simulate_command.h"
 #include "imaging/formats/images/image_file.h"
+#include "tests/error_in.h"
 
 namespace talus::trials {
 
@@ -63,22 +64,14 @@ class CommandFixture : public ::testing::Test {
     return FailureOf([&] { Run(); });
   }
   static std::string FailureOf(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const base::Error& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn<base::Error>(action);
   }
   std::string CheckErrors(const std::vector<std::string>& calibrated = {}) {
     base::Problems problems("spec.json", {});
-    try {
+    return ErrorIn([&] {
       CheckCommand(options_, {.rig_case = SmallCase(), .calibrated = calibrated}, problems);
       problems.ThrowIfAny();
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    });
   }
 
   fs::path root_;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "imaging/drums/drum_overlay.h"
 #include "imaging/formats/images/image_file.h"
+#include "tests/error_in.h"
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
@@ -129,12 +130,7 @@ TEST(Drum, WhatWasFoundIsDrawn) {
 }
 
 std::string ErrorOf(const DrumPhotos& options) {
-  try {
-    MeasureDrum(options);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { MeasureDrum(options); });
 }
 
 TEST(Drum, ErrorsSayWhatToDo) {

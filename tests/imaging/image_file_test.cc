@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
-#include <sys/resource.h>
 #include <zlib.h>
 
 #include <string>
@@ -13,6 +12,7 @@
 #include "base/files/file.h"
 #include "imaging/formats/images/photograph_file.h"
 #include "tests/imaging/stored_images.h"
+#include "tests/peak_memory.h"
 
 namespace talus::imaging {
 namespace image_file_test {
@@ -161,13 +161,6 @@ TEST(ImageFile, PgmOfEveryWhite) {
   }
   EXPECT_THROW(DecodeGrayImage(Pgm(false, 255).substr(0, 500), "half.pgm"), base::ConfigError);
   EXPECT_THROW(DecodeGrayImage("P2 1 1 9 10", "bright.pgm"), base::ConfigError);
-}
-
-// The most memory that this process has ever used.
-long PeakMegabytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 void PutBigEndian(std::string& bytes, std::size_t at, std::uint32_t value) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "imaging/heap/difference_map.h"
+#include "tests/error_in.h"
 
 namespace talus::imaging {
 namespace metrics_test {
@@ -135,12 +136,7 @@ TEST(Metrics, ImagesOfOtherSizesCannotBeCompared) {
 
 TEST(Metrics, AFrameThatIsNotFilledInIsRefused) {
   const auto error_of = [](const HeapImages& heap) {
-    try {
-      CompareProfiles(heap, heap);
-    } catch (const base::ConfigError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return ErrorIn([&] { CompareProfiles(heap, heap); });
   };
   HeapImages heap{.profile = Drawn(Cone), .parts = {}};
   heap.profile.frame.pixel_size = 0;

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/photos/experiment.h"
+#include "tests/error_in.h"
 #include "tests/imaging/synthetic_photo.h"
 
 namespace talus::imaging {
@@ -67,12 +68,7 @@ inline fs::path GoodFolder(const std::string& name) {
 }
 
 inline std::string ErrorOf(const ExperimentOptions& options) {
-  try {
-    MeasureExperiment(options);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorIn([&] { MeasureExperiment(options); });
 }
 
 }  // namespace talus::imaging

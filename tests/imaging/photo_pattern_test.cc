@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "imaging/photos/photo_set.h"
+#include "tests/error_in.h"
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
@@ -118,12 +119,7 @@ TEST(PhotoPattern, HiddenFilesAreNoPhotographsAndOtherFormatsAreNamed) {
 }
 
 std::string ErrorOf(const fs::path& folder, const std::string& pattern) {
-  try {
-    FindPhotos(folder, pattern);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorIn([&] { FindPhotos(folder, pattern); });
 }
 
 // No file matched "*", which stands for anything.

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -11,6 +10,8 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/random.h"
+#include "tests/error_in.h"
+#include "tests/peak_memory.h"
 
 namespace talus::imaging {
 namespace sphere_files_test {
@@ -35,12 +36,7 @@ class SphereFilesTest : public ::testing::Test {
     return ReadSpheres(Write(name, text), options);
   }
   std::string ErrorOf(std::string_view text, const SphereFileOptions& options = {}) {
-    try {
-      Read(text, options);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Read(text, options); });
   }
 
   fs::path folder_;
@@ -232,13 +228,6 @@ TEST_F(SphereFilesTest, ErrorsSayWhatIsWrongAndWhere) {
               HasSubstr("r ends too early"));
   EXPECT_THAT(ErrorOf(Vtu("<DataArray type=\"Float64\" Name=\"r\" format=\"ascii\">1</DataArray>")),
               HasSubstr("r has 1 values, not 2"));
-}
-
-// The most memory that this process has ever used.
-long PeakMegabytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 // 700 bytes took 2 GiB: the block sizes became memory before the data was looked at.

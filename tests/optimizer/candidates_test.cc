@@ -14,6 +14,7 @@
 #include "optimizer/space/level_ranks.h"
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/strategy/make_strategy.h"
+#include "tests/error_in.h"
 
 namespace talus::optimizer {
 namespace candidates_test {
@@ -202,12 +203,7 @@ class Table : public ::testing::Test {
     return space.MakeDomain();
   }
   std::string ErrorOf(const std::string& text) {
-    try {
-      Read(text);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Read(text); });
   }
 };
 

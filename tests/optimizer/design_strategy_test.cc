@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "optimizer/strategy/make_strategy.h"
+#include "tests/error_in.h"
 
 namespace talus::optimizer {
 namespace design_strategy_test {
@@ -109,13 +109,8 @@ TEST(MakeStrategy, EveryKindHasANameAndProposesAPoint) {
 }
 
 TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
-  const auto error_of = [](const StrategyOptions& options) -> std::string {
-    try {
-      MakeStrategy(options, Domain{.num_parameters = 6}, nullptr, 1);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+  const auto error_of = [](const StrategyOptions& options) {
+    return ErrorIn([&] { MakeStrategy(options, Domain{.num_parameters = 6}, nullptr, 1); });
   };
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid, .levels = {3, 3}}),
               HasSubstr("has 2 numbers for 6 parameters"));

@@ -7,6 +7,7 @@
 
 #include "base/json/json_reader.h"
 #include "optimizer/space/candidate_table.h"
+#include "tests/error_in.h"
 
 namespace talus::optimizer {
 namespace parameter_space_test {
@@ -18,12 +19,7 @@ ParameterSpace Load(std::string_view text) {
 }
 
 std::string ErrorOf(std::string_view text) {
-  try {
-    Load(text);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { Load(text); });
 }
 
 constexpr const char* kSpace = R"({

@@ -21,6 +21,7 @@
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/trials/engines/command_case.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::analysis {
 namespace {
@@ -180,8 +181,7 @@ std::vector<DrawCard> ReadDrawCards(const std::filesystem::path& folder, int cou
   const WeightedDraws draws = PosteriorSets(view, count);
   std::vector<DrawCard> cards;
   for (std::size_t i = 0; i < draws.points.size(); ++i) {
-    const auto point = Eigen::Map<const Eigen::VectorXd>(
-        draws.points[i].data(), static_cast<Eigen::Index>(draws.points[i].size()));
+    const Eigen::VectorXd point = optimizer::VectorOf(draws.points[i]);
     Card card = CardWith(finished, view.space.ToNative(point), folder);
     card.title += ", draw " + std::to_string(i + 1) + " of " + std::to_string(draws.points.size()) +
                   " of the posterior, weight " + base::ShortNumber(draws.weights[i]);

@@ -36,6 +36,9 @@ std::string PairsNotIncluded(const Card& card, int first_material, const std::st
 // line each behind `mark`.
 std::string WallsNotIncluded(const Card& card, const std::string& mark);
 
+// That a code does not have the rolling resistance; a line behind `mark`.
+std::string RollingNotIncluded(const Card& card, const std::string& code, const std::string& mark);
+
 // The restitution that `damping tsuji` of LAMMPS must be given to rebound with `restitution`, and
 // its polynomial α(e) (docs/foreign_engines.md).
 double TsujiAlpha(double restitution);

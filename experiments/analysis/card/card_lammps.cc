@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/text/name.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
@@ -161,8 +162,7 @@ std::string LammpsRemarks(const Card& card) {
         "# rolling sds: stiffness and damping of a contact that bears ten grain weights; its limit "
         "caps spring\n# and dashpot together.\n";
   } else if (card.models.rolling != engine::Rolling::kNone) {
-    text += "# NOT INCLUDED: the " + std::string(base::NameOf(card.models.rolling)) +
-            " rolling resistance, which LAMMPS has not.\n";
+    text += RollingNotIncluded(card, "LAMMPS", "# ");
   }
   return text;
 }

@@ -79,7 +79,7 @@ std::string LetheCard(const Card& card) {
   std::ostringstream text;
   text << CardHead(card, "Lethe", "# ") << PairsNotIncluded(card, 0, "# ");
   if (card.models.rolling == engine::Rolling::kEpsd2) {
-    text << "# NOT INCLUDED: the epsd2 rolling resistance, which Lethe has not.\n";
+    text << RollingNotIncluded(card, "Lethe", "# ");
   }
   for (std::size_t i = 1; i < card.materials.size(); ++i) {
     if (i == wall) continue;

@@ -52,7 +52,7 @@ std::string LiggghtsRemarks(const Card& card) {
         "this card\n# without it is not the calibrated powder.\n";
   }
   if (card.models.rolling == engine::Rolling::kViscous) {
-    text += "# NOT INCLUDED: the viscous rolling resistance, which LIGGGHTS has not.\n";
+    text += RollingNotIncluded(card, "LIGGGHTS", "# ");
   }
   const bool damped = card.models.full_mobilisation_damping > 0;
   if (card.models.rolling == engine::Rolling::kEpsd && damped) {

@@ -33,8 +33,7 @@ std::string MercuryDpmCard(const Card& card) {
     text << "// NOT INCLUDED: the adhesion; choose an adhesive species and calibrate with it.\n";
   }
   if (!rolls && card.models.rolling != engine::Rolling::kNone) {
-    text << "// NOT INCLUDED: the " << base::NameOf(card.models.rolling)
-         << " rolling resistance, which MercuryDPM has not.\n";
+    text << RollingNotIncluded(card, "MercuryDPM", "// ");
   }
   text << "HertzianViscoelasticMindlinRollingTorsionSpecies species;\n"
        << "species.setDensity(" << CardNumber(powder.density) << ");\n"

@@ -91,6 +91,11 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
   return text.str();
 }
 
+std::string RollingNotIncluded(const Card& card, const std::string& code, const std::string& mark) {
+  return mark + "NOT INCLUDED: the " + std::string(base::NameOf(card.models.rolling)) +
+         " rolling resistance, which " + code + " has not.\n";
+}
+
 std::string TestMark(const Card& card, const CardTest& test) {
   const auto index = &test - card.tests.data();
   return index == 0 ? "" : std::to_string(index + 1);

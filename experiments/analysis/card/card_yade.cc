@@ -47,8 +47,7 @@ std::string YadeCard(const Card& card) {
           "and\n"
        << "# its normal force is cut at zero.\n";
   if (!rolls && card.models.rolling != engine::Rolling::kNone) {
-    text << "# NOT INCLUDED: the " << base::NameOf(card.models.rolling)
-         << " rolling resistance, which YADE has not.\n";
+    text << RollingNotIncluded(card, "YADE", "# ");
   }
   if (card.models.adhesion == engine::Adhesion::kJkr) {
     text << "# NOT INCLUDED: JKR adhesion, which YADE has not.\n";

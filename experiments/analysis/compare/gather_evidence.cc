@@ -11,25 +11,25 @@
 #include "base/error.h"
 #include "base/json/json_file.h"
 #include "base/json/json_reader.h"
+#include "base/text/joined.h"
 #include "base/version.h"
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
 #include "imaging/formats/images/image_file.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::analysis {
 namespace {
 
 ParameterInfo InfoOf(const journal::ParameterRecord& record) {
   ParameterInfo info;
-  info.range.name = record.name;
-  info.range.low = record.low;
-  info.range.high = record.high;
-  info.range.scale = record.scale == "log" ? optimizer::Scale::kLog : optimizer::Scale::kLinear;
+  info.range = campaign::SearchedParameter(record);
   info.symbol = SymbolOf(record.name);
   info.unit = PrettyUnit(record.unit);
   info.column = journal::ColumnName(record);
@@ -71,8 +71,7 @@ TrialEvidence EvidenceOf(const journal::TrialRecord& record, std::vector<MetricI
   trial.id = static_cast<int>(record.id);
   trial.state = record.status;
   trial.purpose = base::NameOf(record.kind);
-  trial.point = Eigen::Map<const Eigen::VectorXd>(record.unit.data(),
-                                                  static_cast<Eigen::Index>(record.unit.size()));
+  trial.point = optimizer::VectorOf(record.unit);
   trial.values = record.native;
   trial.seed = record.seed;
   trial.scale_factor = record.scale_factor;
@@ -172,14 +171,14 @@ std::string SeedsText(std::size_t num_trials) {
 
 // Without a name the first that has images, or the first of all where none has.
 std::size_t ExperimentNamed(const journal::CampaignRecord& record, const std::string& name) {
-  std::string names;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     const journal::ExperimentRecord& experiment = record.experiments[e];
     if (name.empty() ? !experiment.aehp_png.empty() : experiment.name == name) return e;
-    names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
   }
   if (name.empty()) return 0;
-  throw base::ConfigError("the campaign has no experiment \"" + name + "\"; it has " + names);
+  const auto quoted = [](const journal::ExperimentRecord& e) { return "\"" + e.name + "\""; };
+  throw base::ConfigError("the campaign has no experiment \"" + name + "\"; it has " +
+                          base::Joined(record.experiments, ", ", quoted));
 }
 
 // Those of the experiment that is shown, and the others without their metrics.

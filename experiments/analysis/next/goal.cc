@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text/joined.h"
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/rigs/rig_list.h"
@@ -38,8 +39,7 @@ std::vector<GoalNumber> NumbersOf(const Prediction& prediction) {
 }
 
 std::string NameOfGoal(const std::vector<GoalNumber>& numbers, const GoalRequest& request) {
-  std::string all;
-  for (const GoalNumber& number : numbers) all += (all.empty() ? "" : ", ") + number.key;
+  const std::string all = base::Joined(numbers, ", ", &GoalNumber::key);
   if (!request.observable.empty()) {
     const auto named = std::ranges::find_if(numbers, [&](const GoalNumber& number) {
       return number.key == request.observable || number.metric == request.observable;

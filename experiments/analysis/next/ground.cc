@@ -20,12 +20,6 @@ Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredicti
   return share * to_target * at.single;
 }
 
-double MeanOf(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
-}
-
 Eigen::VectorXd SurrogateVariance(const optimizer::OutputPredictions& at) {
   return at.variance.colwise().mean().transpose();
 }

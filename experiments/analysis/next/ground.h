@@ -38,8 +38,6 @@ std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView&
 Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredictions& at, int runs,
                            double to_target);
 
-double MeanOf(const std::vector<double>& values);
-
 // The surrogate's variance of each output, mean over the draws.
 Eigen::VectorXd SurrogateVariance(const optimizer::OutputPredictions& at);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/files/output_folder.h"
+#include "base/sample.h"
 #include "base/text/counted.h"
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/analysis/next/unknown_discount.h"
@@ -49,7 +50,7 @@ std::optional<optimizer::ScalarTarget> TargetOf(const ExpectedNumber& number,
   if (values.size() < kFewest) return std::nullopt;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*low == *high) return std::nullopt;
-  const double mean = MeanOf(values);
+  const double mean = base::SampleOf(values).mean;
   return optimizer::ScalarTarget{
       .name = number.metric,
       .value = mean,

@@ -27,11 +27,7 @@ std::string WidthText(const NextTable& table, std::size_t parameter, double widt
 }
 
 std::string SetText(const std::vector<double>& values) {
-  std::string text = "(";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + base::ShortNumber(values[i]);
-  }
-  return text + ")";
+  return "(" + base::Joined(values, ", ", [](double v) { return ShortNumber(v); }) + ")";
 }
 
 std::string ApartText(const NextCandidate& c) {

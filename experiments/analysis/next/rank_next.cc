@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/sample.h"
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
@@ -113,7 +114,7 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
     }
     if (values.empty() || *std::max_element(values.begin(), values.end()) <= 0) continue;
     optimizer::ExperimentTarget target{.name = record.name};
-    target.scalars = {{.name = fallen, .value = MeanOf(values), .standard_error = 0}};
+    target.scalars = {{.name = fallen, .value = base::SampleOf(values).mean, .standard_error = 0}};
     const auto model = ModelOf(view, view.spec.coarse_graining.Levels(), std::move(target));
     for (const optimizer::Observation& observation : told) model->Tell(observation);
     if (!model->CanModel()) continue;

@@ -1,8 +1,12 @@
 #include "experiments/analysis/predict/draws.h"
 
 #include <limits>
+#include <optional>
 
+#include "base/error.h"
 #include "base/random.h"
+#include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/answer/standing_answer.h"
 
 namespace talus::analysis {
 namespace {
@@ -34,6 +38,16 @@ Eigen::MatrixXd MeansOf(const Eigen::MatrixXd& draws, const std::vector<Eigen::I
     if (counts[c] > 0) centres.row(c) = sums.row(c) / counts[c];
   }
   return centres;
+}
+
+Eigen::VectorXd RecommendedPoint(const campaign::JointView& view) {
+  const std::optional<campaign::Answer> answer = campaign::StandingAnswer(view.folder.root);
+  if (!answer) {
+    throw base::ConfigError(view.folder.root.string() +
+                            ": has no result yet; without --recommended, draws of what its trials "
+                            "say so far are taken");
+  }
+  return campaign::RecommendedPoint(*answer);
 }
 
 }  // namespace
@@ -83,6 +97,12 @@ Eigen::MatrixXd PosteriorDraws(const campaign::JointView& view) {
 
 WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
   return ChooseDraws(PosteriorDraws(view), count, view.spec.seed);
+}
+
+Eigen::VectorXd OneSet(const campaign::JointView& view, const PredictOptions& options) {
+  if (options.recommended) return RecommendedPoint(view);
+  return campaign::Filled(campaign::ReadSet(view.space, options.set),
+                          *campaign::StrategyOf(view, view.Answered()));
 }
 
 }  // namespace talus::analysis

@@ -1,10 +1,11 @@
-// A few draws that stand for the many of a posterior.
+// The sets that are predicted by: a few draws that stand for the many of a posterior, or one set.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
+#include "experiments/analysis/predict/predict_options.h"
 #include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::analysis {
@@ -30,5 +31,9 @@ WeightedDraws PosteriorSets(const campaign::JointView& view, int count);
 
 // Rows of `draws`, each the farthest from those before it.
 std::vector<Eigen::Index> FarApart(const Eigen::MatrixXd& draws, int count);
+
+// The one set instead of draws, in the unit cube. Throws ConfigError where the set is no set of the
+// campaign, or where the recommended one is asked for and there is none yet.
+Eigen::VectorXd OneSet(const campaign::JointView& view, const PredictOptions& options);
 
 }  // namespace talus::analysis

@@ -16,7 +16,6 @@
 #include "experiments/analysis/predict/as_before.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/analysis/predict/number_surrogate.h"
-#include "experiments/analysis/predict/one_set.h"
 #include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/analysis/predict/prediction_design.h"
 #include "experiments/analysis/predict/prediction_pictures.h"
@@ -24,7 +23,6 @@
 #include "experiments/analysis/predict/prediction_runs.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/regimes.h"
-#include "experiments/analysis/predict/rig_numbers.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -34,6 +32,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::analysis {
 namespace {
@@ -199,9 +198,7 @@ class Predictor {
 
   campaign::FolderCase FolderCaseOf(const PredictionRuns& runs, std::size_t run) const {
     const PlannedRun& planned = runs.planned(run);
-    const std::vector<double>& point = design_.points[planned.draw];
-    const auto unit =
-        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    const Eigen::VectorXd unit = optimizer::VectorOf(design_.points[planned.draw]);
     std::string name = base::FileNumber(static_cast<std::int64_t>(planned.draw) + 1) + "_" +
                        std::to_string(planned.seed + 1);
     if (planned.scale_factor != ScaleFactor()) {
@@ -262,9 +259,7 @@ class Predictor {
   }
 
   campaign::FolderCase TestCase(const std::string& name, std::size_t experiment) const {
-    const std::vector<double>& point = design_.points.front();
-    const auto unit =
-        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    const Eigen::VectorXd unit = optimizer::VectorOf(design_.points.front());
     return {
         .folder = root_ / "tests" / base::FileWord(name),
         .rig_case = campaign::CaseOf(view_.spec,
@@ -287,12 +282,9 @@ class Predictor {
                           .last_trial = design_.last_trial,
                           .notes = case_.notes};
     for (std::size_t d = 0; d < design_.points.size(); ++d) {
-      const std::vector<double>& point = design_.points[d];
       prediction.draws.push_back(
           {.weight = design_.weights[d],
-           .values = campaign::FreeValues(
-               view_.space, Eigen::Map<const Eigen::VectorXd>(
-                                point.data(), static_cast<Eigen::Index>(point.size())))});
+           .values = campaign::FreeValues(view_.space, optimizer::VectorOf(design_.points[d]))});
     }
     return prediction;
   }

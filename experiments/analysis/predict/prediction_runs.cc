@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <utility>
 
+#include "base/error.h"
+#include "base/sample.h"
+#include "base/text/joined.h"
 #include "experiments/analysis/predict/prediction_pictures.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
+#include "experiments/rigs/rig_list.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"
 
@@ -16,12 +20,6 @@ namespace {
 const journal::MetricRecord* Find(const trials::TrialOutput& output, const std::string& name) {
   const auto found = std::ranges::find(output.scalars, name, &journal::MetricRecord::name);
   return found == output.scalars.end() ? nullptr : &*found;
-}
-
-double MeanOfRuns(const std::vector<double>& values) {
-  return values.empty() ? kUnknown
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                              static_cast<double>(values.size());
 }
 
 // The error of the mean that a draw's runs, or a surrogate in their place, say it has.
@@ -56,7 +54,7 @@ PredictedNumber Describe(std::string name, const DrawValues& values, const Sprea
   Take(spread, number);
   for (const std::vector<double>& runs : values.runs) {
     number.num_defined += static_cast<int>(runs.size());
-    number.by_draw.push_back(MeanOfRuns(runs));
+    number.by_draw.push_back(base::SampleOf(runs).mean);
   }
   return number;
 }
@@ -80,6 +78,20 @@ double Quantile90(std::vector<Weighted> values) {
 }
 
 }  // namespace
+
+void KeepRigNumbers(const rigs::Case& rig_case, trials::TrialOutput& output) {
+  std::vector<std::string> measured;
+  for (const rigs::RigObservable& one : rigs::EntryOf(rig_case).observables) {
+    measured.push_back(rigs::MetricName(one.observable));
+  }
+  std::erase_if(output.scalars, [&](const journal::MetricRecord& scalar) {
+    return std::ranges::find(measured, scalar.name) == measured.end();
+  });
+  if (!output.scalars.empty() || !output.profile.pixels.empty()) return;
+  throw base::Error("left none of \"" + base::Joined(measured, "\", \"") + "\", which the rig \"" +
+                    std::string(base::NameOf(rig_case.rig.kind)) +
+                    "\" measures; the engine's templates simulate another test");
+}
 
 PredictionRuns::PredictionRuns(std::vector<double> weights, std::vector<PlannedRun> plan,
                                double scale_factor)

@@ -7,6 +7,7 @@
 
 #include "base/text/counted.h"
 #include "base/text/csv.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/rigs/observables/observable.h"
@@ -37,12 +38,12 @@ std::string Percent(double share) { return ShortNumber(std::round(100 * share), 
 
 std::string SetText(const Prediction& prediction, int draw,
                     const std::vector<journal::ParameterRecord>& parameters) {
-  std::string text;
   const std::vector<double>& values = prediction.draws.at(static_cast<std::size_t>(draw)).values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + ShortNumber(values[i]);
-  }
-  return "draw " + std::to_string(draw + 1) + " (" + text + ")";
+  const auto text = [&](std::size_t i) {
+    return parameters[i].name + " " + ShortNumber(values[i]);
+  };
+  return "draw " + std::to_string(draw + 1) + " (" + base::JoinedUpTo(values.size(), ", ", text) +
+         ")";
 }
 
 // Where the uncertainty of a single run comes from.

@@ -5,14 +5,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/sample.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::analysis {
 namespace {
-
-double Mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 // t quantile over normal quantile at 5 %, to first order in 1/ν (Cornish and Fisher); 1 for ν → ∞.
 double StudentOverNormal(double freedom) {
@@ -35,7 +32,7 @@ Spread::Spread(const DrawValues& values, const rigs::Bounds& bounds) : bounds_(b
   for (std::size_t i = 0; i < values.runs.size(); ++i) {
     const std::vector<double>& runs = values.runs[i];
     if (runs.empty() || !(values.weight[i] > 0)) continue;
-    const double mean = Mean(runs);
+    const double mean = base::SampleOf(runs).mean;
     for (const double y : runs) squares_within += (y - mean) * (y - mean);
     num_runs += static_cast<double>(runs.size());
     count.push_back(static_cast<double>(runs.size()));

@@ -324,13 +324,8 @@ std::vector<Alarm> CorrelationAlarms(const Answer& all) {
 
 std::vector<Alarm> BoundAlarms(const Answer& all) {
   const Answer answer = AskedPart(all);
-  Eigen::VectorXd point(static_cast<Eigen::Index>(answer.parameters.size()));
-  for (std::size_t i = 0; i < answer.parameters.size(); ++i) {
-    const ResultParameter& p = answer.parameters[i];
-    point[static_cast<Eigen::Index>(i)] = p.Range().ToUnit(p.value);
-  }
   std::vector<Alarm> alarms;
-  for (const optimizer::BoundWarning& bound : optimizer::BoundWarnings(point)) {
+  for (const optimizer::BoundWarning& bound : optimizer::BoundWarnings(RecommendedPoint(answer))) {
     alarms.push_back(
         {.kind = AlarmKind::kBound,
          .parameter = answer.parameters[static_cast<std::size_t>(bound.parameter)].name,

@@ -31,6 +31,20 @@ const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experi
   return found == all.end() || found->num_trials == 0 ? nullptr : &*found;
 }
 
+Eigen::VectorXd UnitPoint(const Answer& answer, const std::vector<double>& values) {
+  Eigen::VectorXd point(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    point[static_cast<Eigen::Index>(i)] = answer.parameters[i].Range().ToUnit(values[i]);
+  }
+  return point;
+}
+
+Eigen::VectorXd RecommendedPoint(const Answer& answer) {
+  std::vector<double> values;
+  for (const ResultParameter& p : answer.parameters) values.push_back(p.value);
+  return UnitPoint(answer, values);
+}
+
 bool MinimisesSad(const Answer& answer) {
   return answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
 }

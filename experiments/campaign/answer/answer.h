@@ -2,6 +2,7 @@
 // once (conclude.h); terminal, card, report and Python read it.
 #pragma once
 
+#include <Eigen/Core>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -163,6 +164,10 @@ Answer ParseAnswer(const std::string& text);
 // is not known.
 const ResultStanding* StandingOf(const Answer& answer, std::string_view experiment);
 const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experiment);
+
+// A set's point in the unit cube of the parameters, and that of the recommended one.
+Eigen::VectorXd UnitPoint(const Answer& answer, const std::vector<double>& values);
+Eigen::VectorXd RecommendedPoint(const Answer& answer);
 
 // Whether its objective is the SAD.
 bool MinimisesSad(const Answer& answer);

@@ -9,14 +9,6 @@
 namespace talus::campaign {
 namespace {
 
-Eigen::VectorXd UnitPoint(const Answer& result, const std::vector<double>& values) {
-  Eigen::VectorXd point(static_cast<Eigen::Index>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    point[static_cast<Eigen::Index>(i)] = result.parameters[i].Range().ToUnit(values[i]);
-  }
-  return point;
-}
-
 const ResultCandidate* Confirmed(const Answer& result, const Eigen::VectorXd& point) {
   for (const ResultCandidate& candidate : result.confirmed) {
     if (AreNear(UnitPoint(result, candidate.values), point)) return &candidate;

@@ -4,6 +4,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/record_file.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::campaign {
 namespace {
@@ -15,8 +16,7 @@ constexpr const char* kRecord = "design.json";
 }  // namespace
 
 Eigen::VectorXd PointOf(const DesignRecord& record, std::size_t index) {
-  const std::vector<double>& point = record.points[index];
-  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+  return optimizer::VectorOf(record.points[index]);
 }
 
 fs::path DesignFolder::trial(std::size_t index) const {

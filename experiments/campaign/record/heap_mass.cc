@@ -28,9 +28,7 @@ double VolumeOfRevolution(const imaging::Profile& profile) {
 std::optional<journal::PhotoWarningRecord> MoreThanFilled(const rigs::Case& rig_case,
                                                           const imaging::Profile& aehp) {
   constexpr double kLoose = 0.4;  // solid fraction; poured spheres have 0.55 to 0.6
-  const bool stands_on_plate = rig_case.rig.kind == rigs::RigKind::kLiftedTube ||
-                               rig_case.rig.kind == rigs::RigKind::kFunnelHeap;
-  if (!stands_on_plate || aehp.frame.num_pictures() > 1) return std::nullopt;
+  if (!rigs::IsRoundHeap(rig_case.rig.kind) || aehp.frame.num_pictures() > 1) return std::nullopt;
   const double least = kLoose * rig_case.powder.material.density * VolumeOfRevolution(aehp);
   if (!(least > rig_case.powder.mass)) return std::nullopt;
   return journal::PhotoWarningRecord{

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/images/image_file.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::campaign {
 
@@ -17,9 +18,17 @@ std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialReco
   return trials;
 }
 
+optimizer::Parameter SearchedParameter(const journal::ParameterRecord& record) {
+  return {.name = record.name,
+          .low = record.low,
+          .high = record.high,
+          .scale = record.scale == base::NameOf(optimizer::Scale::kLog)
+                       ? optimizer::Scale::kLog
+                       : optimizer::Scale::kLinear};
+}
+
 Eigen::VectorXd PointOf(const journal::TrialRecord& trial) {
-  return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
-                                           static_cast<Eigen::Index>(trial.unit.size()));
+  return optimizer::VectorOf(trial.unit);
 }
 
 rigs::Case CaseOfTrial(const CampaignSpec& spec, const journal::TrialRecord& trial,

@@ -10,6 +10,7 @@
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
+#include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {
 
@@ -25,6 +26,9 @@ inline bool IsPaidFor(const journal::TrialRecord& trial) {
 
 // Those that have finished, in the order in which a strategy was told of them.
 std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials);
+
+// With its name, range and scale.
+optimizer::Parameter SearchedParameter(const journal::ParameterRecord& record);
 
 // The unit cube's point of a trial.
 Eigen::VectorXd PointOf(const journal::TrialRecord& trial);

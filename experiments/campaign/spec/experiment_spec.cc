@@ -1,7 +1,5 @@
 #include "experiments/campaign/spec/experiment_spec.h"
 
-#include <cmath>
-
 #include "base/text/name.h"
 #include "experiments/campaign/spec/drum_images.h"
 
@@ -15,8 +13,7 @@ void ExperimentSpec::Validate(base::Problems& problems) const {
   problems.Require(images.HasImages() || has_numbers, "",
                    "has no data: give photos, runs or a map, or numbers with their errors such as "
                    "\"mass_fallen\": {\"value\": \"21 mg\", \"sd\": \"2 mg\"}");
-  problems.Require(!mass || (*mass > 0 && std::isfinite(*mass)), "mass", mass.value_or(0),
-                   "must be positive");
+  problems.RequirePositive("mass", mass);
   if (!images.HasImages()) return;
   imaging::ExperimentOptions complete = images;
   if (IsDrum(rig) && images.plate_diameter == 0) {

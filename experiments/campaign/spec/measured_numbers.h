@@ -89,10 +89,7 @@ struct ExpectedError {
     visit("sd", self.standard_error,
           {.dimension = D, .required = true, .doc = "standard error it would have, > 0"});
   }
-  void Validate(base::Problems& problems) const {
-    problems.Require(standard_error > 0 && std::isfinite(standard_error), "sd", standard_error,
-                     "must be positive");
-  }
+  void Validate(base::Problems& problems) const { problems.RequirePositive("sd", standard_error); }
 };
 
 // One of each observable (rigs/observables/observable.h), under its key.

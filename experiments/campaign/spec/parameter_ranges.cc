@@ -117,7 +117,7 @@ void ValidateEnd(const engine::Material& material, const std::string& name, cons
     return;
   }
   if (IsOfBulk(name)) {
-    problems.Require(value > 0 && std::isfinite(value), end, value, "must be positive");
+    problems.RequirePositive(end, value);
     return;
   }
   const std::string property = PlaceOf(name).property;

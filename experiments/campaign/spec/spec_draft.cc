@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/problems.h"
+#include "base/text/key_text.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
 #include "experiments/rigs/case/case_warnings.h"
@@ -203,12 +204,6 @@ std::string ScaleOf(const SpecAnswers& answers) {
          " // two points in pixels, and their distance\n";
 }
 
-std::string Spaced(std::string_view kind) {
-  std::string name(kind);
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 // Their own, or those of their rigs: "drum", "drum 2", as results tell them apart by name.
 std::vector<std::string> NamesOfTests(const SpecAnswers& answers) {
   std::set<std::string> taken;
@@ -218,7 +213,7 @@ std::vector<std::string> NamesOfTests(const SpecAnswers& answers) {
   for (const DraftTest& test : answers.tests) {
     names.push_back(test.Answer("name"));
     if (!names.back().empty()) continue;
-    const std::string usual = Spaced(base::NameOf(test.kind));
+    const std::string usual = base::Spaced(base::NameOf(test.kind));
     names.back() = usual;
     for (int i = 2; !taken.insert(names.back()).second; ++i) {
       names.back() = usual + " " + std::to_string(i);

@@ -5,7 +5,6 @@
 
 #include "engine/scene.h"
 #include "experiments/rigs/case/pairs.h"
-#include "experiments/rigs/options/require.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 
@@ -38,7 +37,7 @@ void Case::Validate(base::Problems& problems) const {
                    "is missing or 0, must be positive (a drum may have rig.fill instead)");
   problems.Require(powder.mass == 0 || !has_fill, "rig.fill",
                    "stands beside powder.mass: give one of the two");
-  RequirePositive(problems, "gravity", gravity);
+  problems.RequirePositive("gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
   problems.Require(!frame || !frame->pictures, "frame.pictures",

@@ -157,9 +157,7 @@ struct Case {
 
 // The silhouettes of its image over 180°: one from the front where the heap is not round.
 inline int NumViewsOf(const Case& rig_case) {
-  const bool round =
-      rig_case.rig.kind == RigKind::kLiftedTube || rig_case.rig.kind == RigKind::kFunnelHeap;
-  return round ? rig_case.num_views : 1;
+  return IsRoundHeap(rig_case.rig.kind) ? rig_case.num_views : 1;
 }
 
 // The frame of its image, a film strip where a camera takes several pictures. The case has one.

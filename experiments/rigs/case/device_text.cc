@@ -1,22 +1,16 @@
 #include "experiments/rigs/case/device_text.h"
 
-#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/text/joined.h"
+#include "base/text/key_text.h"
 #include "base/text/number_text.h"
 
 namespace talus::rigs {
 namespace {
-
-std::string Spaced(std::string_view key) {
-  std::string text(key);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
 
 // Collects the quantities that a Visit list names.
 struct Quantities {
@@ -42,7 +36,7 @@ struct Quantities {
  private:
   void Add(std::string_view key, const std::vector<std::string>& quantities) {
     if (quantities.empty() || quantities.front().empty()) return;
-    text += (text.empty() ? ": " : ", ") + Spaced(key) + " " + base::Listed(quantities);
+    text += (text.empty() ? ": " : ", ") + base::Spaced(key) + " " + base::Listed(quantities);
   }
 };
 
@@ -81,7 +75,7 @@ std::string DeviceText(const Case& rig_case) {
   } else {
     RigOptions::Visit(rig_case.rig, quantities);
   }
-  return Spaced(base::NameOf(rig_case.rig.kind)) + quantities.text;
+  return base::Spaced(base::NameOf(rig_case.rig.kind)) + quantities.text;
 }
 
 }  // namespace talus::rigs

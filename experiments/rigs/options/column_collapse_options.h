@@ -1,7 +1,6 @@
 // A column behind a gate in a channel; the gate opens and the column runs out over the floor.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "base/field.h"
@@ -28,8 +27,7 @@ struct ColumnCollapseOptions {
   void Validate(base::Problems& problems) const {
     RequireLength(problems, "length", length);
     RequireLength(problems, "width", width);
-    problems.Require(!gate_velocity || (*gate_velocity > 0 && std::isfinite(*gate_velocity)),
-                     "gate_velocity", gate_velocity.value_or(0), "must be positive");
+    problems.RequirePositive("gate_velocity", gate_velocity);
   }
 };
 

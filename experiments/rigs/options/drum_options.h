@@ -46,12 +46,12 @@ struct DrumOptions {
   void Validate(base::Problems& problems) const {
     RequireLength(problems, "diameter", diameter);
     RequireLength(problems, "width", width);
-    problems.Require(speed > 0 && std::isfinite(speed), "speed", speed, "must be positive");
+    problems.RequirePositive("speed", speed);
     problems.Require(start_turns >= 0 && std::isfinite(start_turns), "start_turns", start_turns,
                      "must not be negative");
     problems.Require(!fill || (*fill > 0 && *fill <= 0.6), "fill", fill.value_or(0),
                      "must be positive and at most 0.6, the share of the drum that is full");
-    problems.Require(turns > 0 && std::isfinite(turns), "turns", turns, "must be positive");
+    problems.RequirePositive("turns", turns);
   }
 };
 

@@ -7,7 +7,6 @@
 
 #include "base/field.h"
 #include "base/problems.h"
-#include "experiments/rigs/options/require.h"
 
 namespace talus::rigs {
 
@@ -32,8 +31,8 @@ struct TapRule {
            .doc = "from tap to tap; above three times the time of the fall"});
   }
   void Validate(base::Problems& problems) const {
-    RequirePositive(problems, "count", count);
-    RequirePositive(problems, "height", height);
+    problems.RequirePositive("count", count);
+    problems.RequirePositive("height", height);
     problems.Require(interval > 3 * std::sqrt(2 * height / 9.81), "interval", interval,
                      "must be above three times the time of the fall");
   }
@@ -73,7 +72,7 @@ struct FillingRule {
       if (std::string_view(key) == "scatter") {
         problems.Require(*value >= 0 && std::isfinite(*value), key, *value, "must not be negative");
       } else {
-        RequirePositive(problems, key, *value);
+        problems.RequirePositive(key, *value);
       }
     };
     check("drop_height", drop_height);

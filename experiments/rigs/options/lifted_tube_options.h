@@ -42,9 +42,9 @@ struct LiftedTubeOptions {
   void Validate(base::Problems& problems) const {
     RequireLength(problems, "tube_inner_diameter", tube_inner_diameter);
     RequireLength(problems, "plate_diameter", plate_diameter);
-    RequirePositive(problems, "plate_height", plate_height);
-    RequirePositive(problems, "lift_velocity", lift_velocity);
-    if (tube_length) RequirePositive(problems, "tube_length", *tube_length);
+    problems.RequirePositive("plate_height", plate_height);
+    problems.RequirePositive("lift_velocity", lift_velocity);
+    problems.RequirePositive("tube_length", tube_length);
     problems.Require(!(tube_inner_diameter > plate_diameter), "tube_inner_diameter",
                      tube_inner_diameter,
                      "must not be above plate_diameter: the tube stands on it");

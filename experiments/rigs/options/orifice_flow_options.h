@@ -33,7 +33,7 @@ struct OrificeFlowOptions {
   void Validate(base::Problems& problems) const {
     RequireLength(problems, "diameter", diameter);
     RequireLength(problems, "orifice", orifice);
-    RequirePositive(problems, "arch_time", arch_time);
+    problems.RequirePositive("arch_time", arch_time);
     problems.Require(!(orifice >= diameter), "orifice", orifice,
                      "must be below the diameter of the cylinder");
     problems.Require(!cone_angle || (*cone_angle > 0 && *cone_angle < std::numbers::pi),

@@ -1,7 +1,6 @@
 // What the options of several rigs must hold, and their usual units.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
 #include "base/problems.h"
@@ -11,10 +10,6 @@ namespace talus::rigs {
 inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 inline constexpr double kRpm = 2 * std::numbers::pi / 60;  // [rad/s]
 inline constexpr double kLargestLength = 2;                // [m]
-
-inline void RequirePositive(base::Problems& problems, const char* key, double value) {
-  problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
-}
 
 inline void RequireLength(base::Problems& problems, const char* key, double value) {
   problems.Require(value > 0 && value <= kLargestLength, key, value,

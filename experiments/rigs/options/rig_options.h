@@ -43,6 +43,12 @@ constexpr bool IsFilmed(RigKind kind) {
   return std::ranges::find(kFilmed, kind) != std::end(kFilmed);
 }
 
+// Whether its powder ends as a round heap on a plate; in the others it lies in a drum, a box or a
+// bed, and is measured from the front.
+constexpr bool IsRoundHeap(RigKind kind) {
+  return kind == RigKind::kLiftedTube || kind == RigKind::kFunnelHeap;
+}
+
 // The keys of one kind only are there: those of `kind`. The lifted tube's stand under `device`.
 struct RigOptions {
   RigKind kind = RigKind::kLiftedTube;

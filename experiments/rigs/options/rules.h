@@ -6,7 +6,6 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "engine/overlap_check.h"
-#include "experiments/rigs/options/require.h"
 
 namespace talus::rigs {
 
@@ -29,11 +28,11 @@ struct RestRule {
           {.dimension = base::Dimension::kTime, .doc = "the phase ends here at the latest, > 0"});
   }
   void Validate(base::Problems& problems) const {
-    RequirePositive(problems, "energy_fraction", energy_fraction);
+    problems.RequirePositive("energy_fraction", energy_fraction);
     problems.Require(moving_share >= 0 && moving_share < 1, "moving_share", moving_share,
                      "must be in [0, 1)");
-    RequirePositive(problems, "hold_time", hold_time);
-    RequirePositive(problems, "max_time", max_time);
+    problems.RequirePositive("hold_time", hold_time);
+    problems.RequirePositive("max_time", max_time);
     problems.Require(!(hold_time > max_time), "hold_time", hold_time, "must not exceed max_time");
   }
 };
@@ -63,9 +62,9 @@ struct PhaseRules {
   void Validate(base::Problems& problems) const {
     problems.Require(fill_max_overlap > 0 && fill_max_overlap <= engine::kMaxOverlapAtStart,
                      "fill_max_overlap", fill_max_overlap, "must be in (0, 0.25]");
-    RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
-    RequirePositive(problems, "leave_depth", leave_depth);
-    if (lift_max_time) RequirePositive(problems, "lift_max_time", *lift_max_time);
+    problems.RequirePositive("fill_max_sweeps", fill_max_sweeps);
+    problems.RequirePositive("leave_depth", leave_depth);
+    problems.RequirePositive("lift_max_time", lift_max_time);
   }
 };
 

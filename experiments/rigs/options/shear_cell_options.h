@@ -1,7 +1,6 @@
 // A round cell whose bladed lid presses on the powder and turns: a rotational shear cell.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +37,7 @@ struct ShearCellOptions {
     ValidateStresses(problems);
     RequireLength(problems, "diameter", diameter);
     if (travel) RequireLength(problems, "travel", *travel);
-    RequirePositive(problems, "speed", speed);
+    problems.RequirePositive("speed", speed);
   }
 
  private:
@@ -50,8 +49,7 @@ struct ShearCellOptions {
                      static_cast<double>(stresses.size()), "stresses, must be three at most");
     for (std::size_t i = 0; i < stresses.size(); ++i) {
       const std::string place = "stresses[" + std::to_string(i) + "]";
-      problems.Require(stresses[i] > 0 && std::isfinite(stresses[i]), place, stresses[i],
-                       "must be positive");
+      problems.RequirePositive(place, stresses[i]);
       problems.Require(i == 0 || !(stresses[i] <= stresses[i - 1]), place, stresses[i],
                        "must be above the one before: each shears what the last has packed");
     }

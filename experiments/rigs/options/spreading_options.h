@@ -74,7 +74,7 @@ struct SpreadingOptions {
   }
   void Validate(base::Problems& problems) const {
     if (gap) RequireLength(problems, "gap", *gap);
-    RequirePositive(problems, "speed", speed);
+    problems.RequirePositive("speed", speed);
     RequireLength(problems, "length", length);
     RequireLength(problems, "width", width);
     RequireLength(problems, "feed", feed);

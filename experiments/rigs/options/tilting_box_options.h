@@ -1,7 +1,6 @@
 // A box of powder that is tilted until its load slides.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -38,7 +37,7 @@ struct TiltingBoxOptions {
     RequireLength(problems, "width", width);
     problems.Require(!lip_height || (*lip_height >= 0 && *lip_height <= kLargestLength),
                      "lip_height", lip_height.value_or(0), "must not be negative, and at most 2 m");
-    problems.Require(rate > 0 && std::isfinite(rate), "rate", rate, "must be positive");
+    problems.RequirePositive("rate", rate);
     problems.Require(largest_angle > 0 && largest_angle <= std::numbers::pi / 2, "largest_angle",
                      largest_angle,
                      "must be positive and at most 90 deg; a bare number is in rad: write "

@@ -11,6 +11,7 @@
 #include "base/json/json_text.h"
 #include "experiments/runners/process_guard.h"
 #include "experiments/runners/tool.h"
+#include "experiments/trials/optimize/optimize_result_json.h"
 
 namespace talus::trials {
 namespace {
@@ -73,11 +74,7 @@ Evaluator::Evaluator(const OptimizeProblem& problem, std::vector<std::string> co
 }
 
 std::string Evaluator::InputOf(const Eigen::VectorXd& point, std::uint64_t seed) const {
-  const std::vector<double> native = problem_.space.ToNative(point);
-  nlohmann::ordered_json input;
-  for (std::size_t i = 0; i < native.size(); ++i) {
-    input[problem_.space.parameters[i].name] = native[i];
-  }
+  nlohmann::ordered_json input = NativeParameters(problem_, point);
   input["seed"] = seed;
   return base::JsonText(input) + "\n";
 }

@@ -16,6 +16,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::trials {
 namespace {
@@ -137,10 +138,8 @@ void OptimizeFolder::Load() {
     }
     const auto line = json::parse(*whole);
     const int number = line["evaluation"].get<int>();
-    const auto point = line["point"].get<std::vector<double>>();
     Evaluated evaluated;
-    evaluated.observation.point =
-        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    evaluated.observation.point = optimizer::VectorOf(line["point"].get<std::vector<double>>());
     evaluated.observation.failed = line.contains("failed");
     if (evaluated.observation.failed) {
       evaluated.failure = line["failed"].get<std::string>();

@@ -11,6 +11,7 @@
 #include "base/files/file.h"
 #include "engine/kernel/dispatch.h"
 #include "tests/engine/cloud.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace determinism_test {
@@ -157,12 +158,7 @@ TEST(Checkpoint, IsRestoredWithOneThreadAtLeast) {
 }
 
 std::string RestoreError(const std::string& bytes) {
-  try {
-    Simulation::Restore(bytes);
-  } catch (const base::Error& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn<base::Error>([&] { Simulation::Restore(bytes); });
 }
 
 TEST(Checkpoint, TruncatedDamagedAndForeignTextsAreRefused) {

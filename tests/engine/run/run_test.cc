@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace run_test {
@@ -17,12 +18,7 @@ const RunCheckpoint kCheckpoint{.input_hash = 0xfedcba9876543210,
                                 .simulation = std::string("bytes\n\0of the engine", 20)};
 
 std::string ErrorOf(const std::string& bytes) {
-  try {
-    Unpack(bytes);
-  } catch (const base::Error& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn<base::Error>([&] { Unpack(bytes); });
 }
 
 TEST(RunCheckpoint, IsReadBackWhole) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/engine/cloud.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace bad_input_test {
@@ -15,15 +16,7 @@ namespace bad_input_test {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-template <class Action>
-std::string ErrorOf(Action&& action) {
-  try {
-    action();
-  } catch (const base::Error& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string ErrorOf(const auto& action) { return ErrorIn<base::Error>(action); }
 std::string SceneError(const Scene& scene) {
   return ErrorOf([&] { Simulation simulation(scene); });
 }

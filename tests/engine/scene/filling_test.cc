@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
-#include "base/error.h"
 #include "engine/scene/size_distribution.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace filling_test {
@@ -114,12 +114,7 @@ TEST(Filling, ARegionThatIsTooSmallEndsAtTheCapAndSaysSo) {
 TEST(Filling, WhatCannotBeIsNamed) {
   const auto error_of = [](const std::function<void(Load&)>& change, Load load) {
     change(load);
-    try {
-      Fill(load.radii, load.request);
-    } catch (const base::ConfigError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return ErrorIn([&] { Fill(load.radii, load.request); });
   };
   const auto is_refused = [&](const std::string& key, const std::function<void(Load&)>& change) {
     EXPECT_EQ(error_of(change, Mono(10)).find(key), 0u) << key << " " << error_of(change, Mono(10));

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "engine/scene/scene_json.h"
 #include "tests/engine/scenes.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace pairs_test {
@@ -122,12 +122,7 @@ TEST(Pairs, ARestoredRunKeepsThem) {
 std::string ErrorOf(const std::vector<MaterialPair>& pairs) {
   Scene scene = testing::EmptySpace(testing::Glass());
   scene.pairs = pairs;
-  try {
-    const Simulation simulation(scene);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { const Simulation simulation(scene); });
 }
 
 TEST(Pairs, TheSolverRefusesWhatNoFileCanGive) {

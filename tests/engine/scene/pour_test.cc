@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "engine/run/bed.h"
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"
 #include "tests/engine/scenes.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace pour_test {
@@ -163,12 +163,7 @@ TEST(PouredScene, ARestartGoesOnWithTheSameBits) {
 TEST(PouredScene, BadPoursAreRefused) {
   const auto error_of = [](std::string text, const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
-    try {
-      Load(text, "bad_pour");
-    } catch (const base::ConfigError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return ErrorIn([&] { Load(text, "bad_pour"); });
   };
   EXPECT_NE(error_of(kCup, "\"6 mm\"", "\"2 mm\"").find("pours[0].mouth_diameter"),
             std::string::npos);

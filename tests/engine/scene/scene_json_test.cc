@@ -13,6 +13,7 @@
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace scene_json_test {
@@ -29,12 +30,7 @@ std::filesystem::path Write(const std::string& text) {
 }
 
 std::string ErrorOf(const std::string& text) {
-  try {
-    LoadScene(Write(text));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { LoadScene(Write(text)); });
 }
 
 constexpr const char* kPair = R"({

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace size_distribution_test {
@@ -193,14 +194,7 @@ TEST(SizeFile, OfMoreThanSixteenMebibytesIsRefused) {
 }
 
 TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
-  const auto error = [](const std::string& text) -> std::string {
-    try {
-      ReadText(text);
-    } catch (const base::ConfigError& e) {
-      return e.what();
-    }
-    return "";
-  };
+  const auto error = [](const std::string& text) { return ErrorIn([&] { ReadText(text); }); };
   EXPECT_THAT(error("size,% under\n1,0\n2,100\n"), HasSubstr("in which unit"));
   EXPECT_THAT(error("nothing here"), HasSubstr("has no table"));
   EXPECT_THAT(error("size (um),% over\n1,100\n2,0\n"), HasSubstr("coarser"));

@@ -4,12 +4,12 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
 #include "experiments/analysis/design/design_spec.h"
 #include "experiments/analysis/design/design_text.h"
 #include "experiments/analysis/design/rank_designs.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -49,12 +49,7 @@ class DesignTest : public campaign::CampaignFixture {
     return RankDesigns(view, design.candidates, parts);
   }
   std::string ErrorOf(const std::string& members) const {
-    try {
-      LoadDesignSpec(Write(members));
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { LoadDesignSpec(Write(members)); });
   }
 };
 

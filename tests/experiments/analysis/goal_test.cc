@@ -9,6 +9,7 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
 #include "experiments/analysis/next/campaign_goal.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -120,12 +121,7 @@ TEST_F(GoalTest, WhatItsCaseDoesNotMeasureIsRefusedBeforeAnythingIsWritten) {
   const auto error = [&](const std::string& name, const std::string& observable,
                          const std::string& rig) -> std::string {
     const fs::path folder = WithGoal("1", name, observable, rig);
-    try {
-      CheckGoal(campaign::ReadJointView(folder).spec, {});
-    } catch (const base::ConfigError& e) {
-      return e.what();
-    }
-    return "";
+    return ErrorIn([&] { CheckGoal(campaign::ReadJointView(folder).spec, {}); });
   };
   const std::string taps = R"({"kind": "tapped_density", "diameter": "10 mm"})";
   EXPECT_THAT(error("a", "hausner_ratio", taps), "");

@@ -15,6 +15,7 @@
 #include "experiments/analysis/predict/prediction_plan.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/scene_engine.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -49,12 +50,7 @@ class PredictTest : public campaign::CampaignFixture {
                                   more + "}");
   }
   std::string ErrorOf(const PredictOptions& options) const {
-    try {
-      Run(options);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Run(options); });
   }
   fs::path folder_;
   std::optional<JointView> view_;

@@ -11,7 +11,6 @@
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/data/tables.h"
-#include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/views/model_views.h"
@@ -44,14 +43,6 @@ class Report : public testing::Test {
     return {};
   }
 };
-
-TEST(Base64, GivesTheVectorsOfRfc4648) {
-  EXPECT_EQ(Base64(""), "");
-  EXPECT_EQ(Base64("f"), "Zg==");
-  EXPECT_EQ(Base64("fo"), "Zm8=");
-  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(Base64("\xff\xfe\xfd"), "//79");
-}
 
 TEST_F(Report, PageLoadsNothingFromElsewhere) {
   const std::string page = ReportPage(Data());

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -46,12 +47,7 @@ class SensitivityTest : public campaign::CampaignFixture {
   }
   static std::string ErrorOf(const JointView& view, const std::string& name,
                              const std::string& value) {
-    try {
-      Find(view, {{name, value}});
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Find(view, {{name, value}}); });
   }
   static const FixedMove& Move(const SensitivityTable& table, const std::string& name) {
     for (const FixedMove& move : table.moves) {

@@ -1,6 +1,4 @@
 // What the report shows of `talus sensitivity`.
-#include "experiments/analysis/report/views/sensitivity_view.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/views/folder_views.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "tests/experiments/synthetic_campaign.h"
 

@@ -6,8 +6,8 @@
 
 #include <fstream>
 
-#include "base/error.h"
 #include "experiments/campaign/answer/nuisances.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
@@ -28,12 +28,7 @@ class AddedParameters : public CampaignFixture {
     Console console(folder / "campaign.log", Console::Output::kQuiet);
     ResumeOptions options;
     options.search = {search};
-    try {
-      OpenCampaign(folder, options, console);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "no error";
+    return ErrorIn([&] { OpenCampaign(folder, options, console); });
   }
 };
 

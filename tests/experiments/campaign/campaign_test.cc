@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/status.h"
 #include "experiments/journal/database.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
@@ -25,14 +26,7 @@ constexpr const char* kSmall = R"(,
 
 using CampaignTest = CampaignFixture;
 
-std::string ErrorOf(const auto& action) {
-  try {
-    action();
-  } catch (const base::Error& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string ErrorOf(const auto& action) { return ErrorIn<base::Error>(action); }
 
 TEST_F(CampaignTest, NoiseFirstThenTheSearchThenTheConfirmation) {
   const fs::path folder = Begin(kSmall);

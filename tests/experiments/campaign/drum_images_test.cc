@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/json/json_file.h"
 #include "imaging/formats/images/image_file.h"
+#include "tests/error_in.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
@@ -69,12 +69,7 @@ class DrumImages : public ::testing::Test {
         base::ParseJson(experiments + rest + fill, scratch_.path() / "spec.json"));
   }
   std::string ErrorOf(const std::string& more) const {
-    try {
-      Read(more, false);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Read(more, false); });
   }
 
  private:

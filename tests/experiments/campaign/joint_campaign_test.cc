@@ -19,6 +19,7 @@
 #include "experiments/campaign/status.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/rigs/load_case.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -174,13 +175,8 @@ TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
 
 TEST_F(JointCampaign, ConsiderRefusesWhatIsNoSetOfTheCampaign) {
   const fs::path folder = Begin(kTwoSizes);
-  const auto error_of = [&](const std::map<std::string, std::string>& set) -> std::string {
-    try {
-      ConsiderSet(folder, set);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+  const auto error_of = [&](const std::map<std::string, std::string>& set) {
+    return ErrorIn([&] { ConsiderSet(folder, set); });
   };
   const std::string error = error_of({{"sliding_friction", "0.9"}, {"rolling_frction", "0.1"}});
   EXPECT_THAT(error, HasSubstr("sliding_friction: is 0.9, must be in the searched range"));

@@ -16,6 +16,7 @@
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/status.h"
 #include "experiments/rigs/load_case.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
@@ -59,12 +60,8 @@ class NumbersOnly : public CampaignFixture {
   }
   std::string ErrorOf(const std::string& experiments,
                       const std::string& parameters = kTwoParameters) const {
-    try {
-      ReadCampaignSpec(base::ReadJsonFile(WriteSpec("bad", experiments, parameters)));
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn(
+        [&] { ReadCampaignSpec(base::ReadJsonFile(WriteSpec("bad", experiments, parameters))); });
   }
 };
 

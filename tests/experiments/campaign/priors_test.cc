@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "base/error.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/nuisances.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
@@ -61,13 +61,9 @@ class Priors : public CampaignFixture {
     return Result(folder);
   }
   std::string ErrorOf(const Written& w) const {
-    try {
-      BeginWith("bad", w);
-    } catch (const base::ConfigError& error) {
-      EXPECT_FALSE(fs::exists(scratch_.path() / "bad"));
-      return error.what();
-    }
-    return "no error";
+    const std::string error = ErrorIn([&] { BeginWith("bad", w); });
+    EXPECT_FALSE(fs::exists(scratch_.path() / "bad"));
+    return error;
   }
 };
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "base/error.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -48,12 +48,7 @@ class ReuseTest : public CampaignFixture {
   }
   std::string ErrorOf(const fs::path& spec, const std::vector<fs::path>& folders,
                       const std::string& name = "refused") {
-    try {
-      Reuse(spec, name, folders);
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return ErrorIn([&] { Reuse(spec, name, folders); });
   }
   static std::vector<journal::TrialRecord> Reused(const fs::path& folder) {
     std::vector<journal::TrialRecord> trials = Trials(folder);

@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "base/json/json_file.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "tests/error_in.h"
 
 namespace talus::campaign {
 namespace scale_factors_test {
@@ -25,12 +25,7 @@ CampaignSpec Read(const std::string& members) {
 }
 
 std::string ErrorOf(const std::string& members) {
-  try {
-    Read(members);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { Read(members); });
 }
 
 TEST(ScaleFactors, TheSmallestIsTheTargetUnlessTheSpecAsksForLess) {
@@ -75,16 +70,13 @@ TEST(ScaleFactors, WhatCannotBeIsRefusedWithItsPlace) {
 }
 
 std::string ErrorOfExperiments(const std::string& list, const std::string& more = "") {
-  try {
+  return ErrorIn([&] {
     ReadCampaignSpec(base::ParseJson(R"({
       "powder": {"material": {"density": 2500},
                  "sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},)" +
                                          more + "\"experiments\": [" + list + "]}",
                                      "/folder/powder.json"));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(Experiments, WhatCannotBeIsRefusedWithItsPlace) {

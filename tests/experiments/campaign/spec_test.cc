@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "tests/error_in.h"
 
 namespace talus::campaign {
 namespace spec_test {
@@ -33,12 +33,7 @@ std::string With(const std::string& member) {
 }
 
 std::string ErrorOf(const std::string& text) {
-  try {
-    Read(text);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { Read(text); });
 }
 
 TEST(Spec, DefaultsAreTheThreeUsualParametersAndTheFilesName) {

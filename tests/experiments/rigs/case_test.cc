@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
 #include "experiments/rigs/case/case_text.h"
@@ -20,6 +19,7 @@
 #include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
 #include "experiments/rigs/load_case.h"
+#include "tests/error_in.h"
 
 namespace talus::rigs {
 namespace case_test {
@@ -44,12 +44,7 @@ std::filesystem::path Write(const std::string& name, const std::string& text) {
 }
 
 std::string ErrorOf(const std::string& text) {
-  try {
-    LoadCase(Write("heap_case_error.json", text));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { LoadCase(Write("heap_case_error.json", text)); });
 }
 
 TEST(Case, TheCompleteTextIsTheSameCase) {

@@ -12,6 +12,7 @@
 #include "base/json/json_reader.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
+#include "tests/error_in.h"
 
 namespace talus::rigs {
 
@@ -63,12 +64,7 @@ inline Case Filmed() {
 }
 
 inline std::string ErrorOf(const char* text) {
-  try {
-    LoadCase(base::ParseJson(text, "case.json"));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { LoadCase(base::ParseJson(text, "case.json")); });
 }
 
 }  // namespace talus::rigs

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "base/error.h"
 #include "base/json/json_reader.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
 #include "experiments/rigs/shear_cell/yield_line.h"
+#include "tests/error_in.h"
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
@@ -139,12 +139,7 @@ std::string ErrorOf(const std::string& rig, const std::string& modulus = "10 MPa
                            modulus + R"("}, "mass": "2.2 g"},
     "rig": {"kind": "shear_cell", "diameter": "14 mm")" +
                            rig + "}}";
-  try {
-    LoadCase(base::ParseJson(text, "case.json"));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorIn([&] { LoadCase(base::ParseJson(text, "case.json")); });
 }
 
 TEST(ShearCell, WhatCannotBeShearedIsRefused) {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "base/text/number_text.h"
+#include "tests/error_in.h"
 
 namespace talus::trials {
 namespace template_text_test {
@@ -20,14 +20,11 @@ const TemplateValues kValues{
 std::string Fill(std::string_view text) { return TextTemplate(text, "deck").Fill(kValues); }
 
 std::string ErrorOf(std::string_view text) {
-  try {
+  return ErrorIn([&] {
     base::Problems problems("spec.json", {});
     TextTemplate(text, "deck").Check(kValues, problems);
     problems.ThrowIfAny();
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(TextTemplate, ValuesReplaceTheirPlaceholders) {

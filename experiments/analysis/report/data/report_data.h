@@ -9,13 +9,11 @@
 
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
-#include "experiments/analysis/report/views/film_view.h"
+#include "experiments/analysis/report/views/folder_views.h"
 #include "experiments/analysis/report/views/heap_views.h"
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/views/next_steps.h"
 #include "experiments/analysis/report/views/next_table_view.h"
-#include "experiments/analysis/report/views/predictions_view.h"
-#include "experiments/analysis/report/views/sensitivity_view.h"
 #include "experiments/analysis/report/views/width_views.h"
 
 namespace talus::analysis {

@@ -1,10 +1,11 @@
 #include <cmath>
 
 #include "base/json/json_text.h"
+#include "base/text/base64.h"
 #include "experiments/analysis/compare/knowledge.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/data/methods.h"
-#include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/answer_words.h"
@@ -31,7 +32,7 @@ std::string ValueTitle(const Criterion& criterion) {
 
 PageValue UriJson(const Picture& picture) {
   if (picture.png.empty()) return nullptr;
-  return "data:image/png;base64," + Base64(picture.png);
+  return "data:image/png;base64," + base::Base64(picture.png);
 }
 
 namespace {
@@ -140,7 +141,7 @@ PageValue OverlayJson(const ReportData& data) {
 PageValue FilmJson(const std::optional<FilmView>& film) {
   if (!film) return nullptr;
   return {{"title", "trial " + std::to_string(film->trial)},
-          {"uri", "data:image/gif;base64," + Base64(film->gif)}};
+          {"uri", "data:image/gif;base64," + base::Base64(film->gif)}};
 }
 
 PageValue ColorsJson() {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/base64.h"
 #include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
-#include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
@@ -65,8 +65,8 @@ std::string WithCode(const std::string& text) {
 
 std::string Image(const Picture& picture, const std::string& caption) {
   return Element("figure", "<img alt=\"" + base::MarkupText(caption) +
-                               "\" src=\"data:image/png;base64," + Base64(picture.png) + "\">" +
-                               Text("figcaption", caption));
+                               "\" src=\"data:image/png;base64," + base::Base64(picture.png) +
+                               "\">" + Text("figcaption", caption));
 }
 
 // The heap as photographed or as measured on average, and as simulated.

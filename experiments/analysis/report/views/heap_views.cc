@@ -73,10 +73,8 @@ campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
   return campaign::ExperimentsOf(spec).at(evidence.experiment);
 }
 
-// In the other rigs the powder lies in a drum, a box or a bed, and is measured from the front.
 bool HeapsOnPlate(const Evidence& evidence) {
-  const rigs::RigKind kind = campaign::KindOf(ExperimentOf(evidence));
-  return kind == rigs::RigKind::kLiftedTube || kind == rigs::RigKind::kFunnelHeap;
+  return rigs::IsRoundHeap(campaign::KindOf(ExperimentOf(evidence)));
 }
 
 imaging::Camera FrontOf(const std::vector<base::Sphere>& grains, int width) {

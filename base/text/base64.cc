@@ -1,8 +1,8 @@
-#include "experiments/analysis/report/page/base64.h"
+#include "base/text/base64.h"
 
 #include <cstdint>
 
-namespace talus::analysis {
+namespace talus::base {
 
 std::string Base64(std::string_view bytes) {
   static constexpr std::string_view kDigits =
@@ -23,4 +23,4 @@ std::string Base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace talus::analysis
+}  // namespace talus::base

@@ -1,10 +1,13 @@
-#include "experiments/analysis/report/views/predictions_view.h"
+#include "experiments/analysis/report/views/folder_views.h"
 
 #include <algorithm>
 #include <filesystem>
 
 #include "base/files/file.h"
+#include "experiments/analysis/sensitivity/sensitivity_text.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/trials/simulate/film.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
@@ -43,6 +46,29 @@ PredictionView ViewOf(const fs::path& folder, const Evidence& evidence) {
 }
 
 }  // namespace
+
+std::optional<FilmView> FilmOf(const Evidence& evidence) {
+  const TrialEvidence* trial = ConfirmingTrial(evidence);
+  if (trial == nullptr || evidence.folder.empty()) return std::nullopt;
+  const auto file =
+      campaign::CampaignFolder{evidence.folder}.trial(trial->id) / trials::kTrialFilmName;
+  std::error_code absent;
+  if (!fs::exists(file, absent)) return std::nullopt;
+  return FilmView{.trial = trial->id, .gif = base::ReadFile(file)};
+}
+
+std::optional<SensitivityView> ReadSensitivity(const Evidence& evidence) {
+  if (evidence.folder.empty()) return std::nullopt;
+  const std::optional<SensitivityTable> table = LoadSensitivity(evidence.folder);
+  if (!table) return std::nullopt;
+  // One made before a parameter was searched says nothing of it.
+  const auto same = [](const SensitivityParameter& told, const ParameterInfo& parameter) {
+    return told.name == parameter.range.name;
+  };
+  if (!std::ranges::equal(table->parameters, evidence.parameters, same)) return std::nullopt;
+  return SensitivityView{.table = *table,
+                         .is_outdated = HaveTrialsEndedSince(evidence, table->last_trial)};
+}
 
 std::vector<PredictionView> ReadPredictions(const Evidence& evidence) {
   std::vector<fs::path> folders;
