@@ -276,19 +276,22 @@ void ContactList::Restored(const ListCounts& counts) {
 // Rows are free again when the last chunk that they reach into has moved. Those of a member's first
 // chunks wait for the members before; of the others, so many are in use that a few sets serve in
 // turn, which stay in the cache.
-std::int64_t ContactList::AssignRowSets() {
+void ContactList::AssignRowSets() {
   row_set_.resize(chunks_.size());
-  std::int64_t num_sets = 0;
+  first_of_set_.clear();
+  first_of_set_.reserve(chunks_.size());
   for (int member = 0; member < shares_.num_members(); ++member) {
     const auto [begin, end] = shares_.Of(member);
     const std::int64_t moves_from = MovesFrom(member), in_turn = reach_ + 1;
     for (std::int64_t c = begin; c < end; ++c) {
-      row_set_[c] = num_sets + std::min(c, moves_from) - begin +
-                    (c < moves_from ? 0 : (c - moves_from) % in_turn);
+      if (c >= moves_from + in_turn) {
+        row_set_[c] = row_set_[c - in_turn];
+        continue;
+      }
+      row_set_[c] = static_cast<std::int64_t>(first_of_set_.size());
+      first_of_set_.push_back(c);
     }
-    num_sets += std::min(moves_from + in_turn, end) - begin;
   }
-  return num_sets;
 }
 
 void ContactList::PrepareForces(Team& team) {
@@ -306,11 +309,12 @@ void ContactList::PrepareForces(Team& team) {
     }
   }
   ShareChunks(team);
-  const std::int64_t num_sets = AssignRowSets();
+  AssignRowSets();
   // Each member empties the rows that it will use, which also puts them into its own memory.
   const std::int64_t set_size = 8 * num_rows;
-  ExtendWithRoom(force_rows_, set_size * num_sets, 0.0);
+  ExtendWithRoom(force_rows_, set_size * static_cast<std::int64_t>(first_of_set_.size()), 0.0);
   ForChunks(team, shares_, [&](std::int64_t c) {
+    if (first_of_set_[row_set_[c]] != c) return;
     std::fill_n(force_rows_.data() + set_size * row_set_[c], set_size, 0.0);
   });
   for (std::int64_t c = 0; c < num_chunks; ++c) {

@@ -112,7 +112,7 @@ class ContactList {
   static void CutPanels(Chunk& chunk);
   void CutChunks(std::int64_t num_particles);
   void ShareChunks(const Team& team);
-  std::int64_t AssignRowSets();  // how many there are
+  void AssignRowSets();
   void FindAll(const RebuildInput& input);
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch);
@@ -131,8 +131,9 @@ class ContactList {
   std::vector<OldContact> old_;
   std::vector<Scratch> scratch_;
   AlignedVector<double> force_rows_;
-  std::vector<std::int64_t> row_set_;  // of each chunk, in force_rows_
-  std::int64_t reach_ = 0;             // how many chunks after its own a chunk's pairs reach into
+  std::vector<std::int64_t> row_set_;       // of each chunk, in force_rows_
+  std::vector<std::int64_t> first_of_set_;  // the first chunk that has each set
+  std::int64_t reach_ = 0;  // how many chunks after its own a chunk's pairs reach into
   std::vector<std::exception_ptr> errors_;  // of each chunk
 };
 

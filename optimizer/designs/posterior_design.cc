@@ -16,7 +16,8 @@ void FollowPrior(const Domain& domain, Points& points) {
   for (const Eigen::Index k : domain.nuisances) {
     const std::vector<double> values = PriorValues(domain, k);
     for (Eigen::VectorXd& point : points) {
-      point[k] = values[static_cast<std::size_t>(point[k] * static_cast<double>(values.size()))];
+      const auto at = static_cast<std::size_t>(point[k] * static_cast<double>(values.size()));
+      point[k] = values[std::min(at, values.size() - 1)];
     }
   }
 }

@@ -11,18 +11,18 @@ namespace {
 constexpr double kSharedError = 0.5;
 constexpr double kLeastEigenvalue = 0.05;
 
-// What pairs of outputs show of their correlation, and how much of it chance alone would show: a
-// correlation of one evaluation is always ±1, so one of few is taken to vary by no less than if
-// there were none.
+// A correlation of fewer rows tells nothing: that of one is always ±1.
+constexpr double kFewest = 4;
+
+// What pairs of outputs show of their correlation, and how much of it chance alone would show.
 struct PairSums {
   double squares = 0;
   double variances = 0;
 
   void Add(double r, double count) {
-    constexpr double kFew = 4;
+    if (count < kFewest) return;
     squares += r * r;
-    variances += std::max((1 - r * r) * (1 - r * r) / std::max(1.0, count - 1),
-                          count < kFew ? 1 / std::max(1.0, count) : 0);
+    variances += (1 - r * r) * (1 - r * r) / (count - 1);
   }
   // The shrinkage of least expected squared error, in [0, 1].
   double Shrinkage() const { return squares > 0 ? std::min(1.0, variances / squares) : 1; }
@@ -68,19 +68,21 @@ Eigen::MatrixXd ResidualCorrelation(const Eigen::MatrixXd& stacked, const std::v
     return test[static_cast<std::size_t>(a)] == test[static_cast<std::size_t>(b)];
   };
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(size, size);
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> is_told(size, size);
   PairSums within;
   PairSums between;
   for (Eigen::Index a = 0; a < size; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
       const CountedCorrelation pair = CorrelationOf(stacked, a, b);
       correlation(a, b) = pair.correlation;
+      is_told(a, b) = pair.count >= kFewest;
       (same(a, b) ? within : between).Add(pair.correlation, pair.count);
     }
   }
   for (Eigen::Index a = 0; a < size; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
       const double prior = same(a, b) ? 0 : kSharedError / static_cast<double>(size);
-      const double share = (same(a, b) ? within : between).Shrinkage();
+      const double share = is_told(a, b) ? (same(a, b) ? within : between).Shrinkage() : 1;
       correlation(a, b) = (1 - share) * correlation(a, b) + share * prior;
       correlation(b, a) = correlation(a, b);
     }

@@ -4,8 +4,9 @@
 // A posterior may be a bent, thin valley or several. One covariance for all kernels would fill the
 // bend, and one Gaussian for all draws would miss it; kernels of their own follow it. A twentieth
 // of the mass is one broad Gaussian, so that draws which lie where an observation does not want
-// them can be outvoted. What a kernel would have beyond a face of the unit cube is mirrored back:
-// else draws that pile up there, as those of a posterior may, would have half their density.
+// them can be outvoted. What a kernel would have beyond one face of the unit cube is mirrored back:
+// else draws that pile up there, as those of a posterior may, would have half their density. Beyond
+// two faces at once it has nothing; its images would double with each parameter.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +38,9 @@ class DrawsDensity {
   };
   static Kernel MakeKernel(const Eigen::MatrixXd& covariance, double weight);
   Eigen::MatrixXd CovarianceRound(Eigen::Index draw) const;
-  void Mirror(Eigen::Index coordinate);
+  // Of the cube and what is mirrored into it.
+  double MassInside(Eigen::Index draw) const;
+  void Mirror(Eigen::Index draw, std::vector<Eigen::RowVectorXd>& images);
 
   Eigen::Index num_draws_;
   Eigen::MatrixXd centres_;  // the draws, the centre of the broad Gaussian, and mirror images

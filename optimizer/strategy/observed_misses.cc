@@ -72,7 +72,8 @@ double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& me
   double sum = 0;
   for (std::size_t s = 0; s < measured.size(); ++s) {
     if (!std::isfinite(one.scalars[s])) return kInfinity;
-    const double off = (one.scalars[s] - measured[s].value) / measured[s].standard_error;
+    const double error = measured[s].standard_error > 0 ? measured[s].standard_error : 1;
+    const double off = (one.scalars[s] - measured[s].value) / error;
     sum += off * off;
   }
   return 1 + sum / static_cast<double>(measured.size());

@@ -9,8 +9,8 @@
 
 namespace talus::optimizer {
 
-// How far the numbers of an evaluation are off: 1 + their mean squared misfit, in their errors;
-// infinite where one does not exist.
+// How far the numbers of an evaluation are off: 1 + their mean squared misfit, in their errors, or
+// in their own unit where these are 0; infinite where a number does not exist.
 double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& measured);
 
 // The evaluations with the miss of their point in place of the objective, the mean over the
