@@ -24,9 +24,10 @@ target_compile_options(talus_compile_options INTERFACE
   $<BUILD_INTERFACE:$<$<BOOL:${TALUS_WARNINGS_AS_ERRORS}>:-Werror>>)
 # Checks that double the time to compile are left out where the address sanitizer finds what comes of
 # the mistake. GCC 12 takes the storage of an empty std::optional for read once it is instrumented.
+# Eigen would put an allocator of its own before the sanitizer's, which optimizer/observation.h refuses.
 if(TALUS_SANITIZE)
   target_compile_options(talus_compile_options INTERFACE
-    $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize=null,alignment,object-size,pointer-overflow>
+    $<BUILD_INTERFACE:-O1;-DEIGEN_MALLOC_ALREADY_ALIGNED=1;-fsanitize=address,undefined;-fno-sanitize=null,alignment,object-size,pointer-overflow>
     $<BUILD_INTERFACE:-fno-sanitize-recover=all;-fno-omit-frame-pointer;-Wno-maybe-uninitialized>)
   target_link_options(talus_compile_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
@@ -39,7 +40,7 @@ if(TALUS_THREAD_SANITIZER)
 endif()
 if(TALUS_FUZZ)
   target_compile_options(talus_compile_options INTERFACE
-    $<BUILD_INTERFACE:-O1;-fsanitize=fuzzer-no-link,address,undefined;-fno-sanitize-recover=all>
+    $<BUILD_INTERFACE:-O1;-DEIGEN_MALLOC_ALREADY_ALIGNED=1;-fsanitize=fuzzer-no-link,address,undefined;-fno-sanitize-recover=all>
     $<BUILD_INTERFACE:-fno-omit-frame-pointer>)
   target_link_options(talus_compile_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
