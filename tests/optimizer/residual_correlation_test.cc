@@ -41,21 +41,15 @@ TEST(ResidualCorrelation, WhatManyRowsShowStays) {
   EXPECT_NEAR(correlation(3, 4), 0, 0.12);
 }
 
-TEST(ResidualCorrelation, TestsThatShareNoRowsHaveTheSlightPriorOnly) {
-  Eigen::MatrixXd z = Residuals(40, 0.8);
-  z.topRightCorner(20, 3).setConstant(kNaN);
-  z.bottomLeftCorner(20, 3).setConstant(kNaN);
-  const Eigen::MatrixXd correlation = ResidualCorrelation(z, {0, 0, 0, 1, 1, 1});
-  EXPECT_NEAR(correlation(0, 3), 0.5 / 6, 1e-12);
-}
-
 // Two numbers of one evaluation always correlate by ±1.
-TEST(ResidualCorrelation, OneSharedRowTellsHardlyAnything) {
-  Eigen::MatrixXd z = Residuals(41, 0);
-  z.topRightCorner(20, 3).setConstant(kNaN);
-  z.bottomLeftCorner(20, 3).setConstant(kNaN);
-  const Eigen::MatrixXd correlation = ResidualCorrelation(z, {0, 0, 0, 1, 1, 1});
-  EXPECT_NEAR(correlation(0, 3), 0.5 / 6, 1e-12);
+TEST(ResidualCorrelation, TestsThatShareFewRowsHaveTheSlightPriorOnly) {
+  for (const int num_shared : {0, 1, 3}) {
+    Eigen::MatrixXd z = Residuals(40 + num_shared, 0.8);
+    z.topRightCorner(20, 3).setConstant(kNaN);
+    z.bottomLeftCorner(20, 3).setConstant(kNaN);
+    const Eigen::MatrixXd correlation = ResidualCorrelation(z, {0, 0, 0, 1, 1, 1});
+    EXPECT_NEAR(correlation(0, 3), 0.5 / 6, 1e-12) << num_shared;
+  }
 }
 
 TEST(ResidualCorrelation, IsPositiveDefiniteWhereOutputsAreTheSame) {
