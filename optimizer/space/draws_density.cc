@@ -23,6 +23,15 @@ Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& rows) {
   return centred.transpose() * centred / static_cast<double>(rows.rows() - 1);
 }
 
+// What the mass of every kernel is told by, one draw a column.
+Eigen::MatrixXd Normals(Eigen::Index dimension) {
+  constexpr Eigen::Index kDraws = 400;  // an error of 2 % where half is inside
+  base::Random random(0, base::Stream("mass of a kernel"));
+  Eigen::MatrixXd normals(dimension, kDraws);
+  for (double& one : normals.reshaped()) one = random.Normal();
+  return normals;
+}
+
 // Coordinates outside [0, 1].
 Eigen::Index NumBeyond(const Eigen::VectorXd& point) {
   return (point.array() < 0 || point.array() > 1).count();
@@ -47,34 +56,33 @@ DrawsDensity::DrawsDensity(Eigen::MatrixXd draws)
   }
   kernels_.push_back(MakeKernel(kBroader * covariance, kBroad));
   centres_ = Stack(centres_, mean_);
+  const Eigen::MatrixXd normals = Normals(centres_.cols());
   std::vector<Eigen::RowVectorXd> images;
-  for (Eigen::Index i = 0; i <= num_draws_; ++i) Mirror(i, images);
+  for (Eigen::Index i = 0; i <= num_draws_; ++i) Mirror(i, normals, images);
   Eigen::Index row = centres_.rows();
   centres_.conservativeResize(std::ssize(kernels_), Eigen::NoChange);
   for (const Eigen::RowVectorXd& image : images) centres_.row(row++) = image;
 }
 
-double DrawsDensity::MassInside(Eigen::Index draw) const {
-  constexpr int kNormals = 400;  // an error of 2 % where half is inside
-  const Eigen::MatrixXd& root = kernels_[static_cast<std::size_t>(draw)].root;
-  base::Random random(0, base::Stream("mass of a kernel"));
-  Eigen::VectorXd z(centres_.cols());
-  int num_inside = 0;
-  for (int i = 0; i < kNormals; ++i) {
-    for (double& one : z) one = random.Normal();
-    if (NumBeyond(centres_.row(draw).transpose() + root * z) <= 1) ++num_inside;
-  }
-  return std::max(1, num_inside) / static_cast<double>(kNormals);
+double DrawsDensity::MassInside(Eigen::Index draw, const Eigen::MatrixXd& normals) const {
+  const Eigen::MatrixXd points =
+      (kernels_[static_cast<std::size_t>(draw)].root * normals).colwise() +
+      centres_.row(draw).transpose();
+  Eigen::Index num_inside = 0;
+  for (const auto& point : points.colwise()) num_inside += NumBeyond(point) <= 1 ? 1 : 0;
+  return static_cast<double>(std::max<Eigen::Index>(1, num_inside)) /
+         static_cast<double>(points.cols());
 }
 
 // Adds the images of a kernel at the faces that it reaches, and their centres to `images`.
-void DrawsDensity::Mirror(Eigen::Index draw, std::vector<Eigen::RowVectorXd>& images) {
+void DrawsDensity::Mirror(Eigen::Index draw, const Eigen::MatrixXd& normals,
+                          std::vector<Eigen::RowVectorXd>& images) {
   Kernel kernel = kernels_[static_cast<std::size_t>(draw)];
   const Eigen::RowVectorXd centre = centres_.row(draw);
   const Eigen::ArrayXd reach = kReach * kernel.root.rowwise().norm().array();
   const Eigen::ArrayXd low = centre.transpose(), high = 1 - low;
   if ((low > reach && high > reach).all()) return;
-  kernel.log_constant -= std::log(MassInside(draw));
+  kernel.log_constant -= std::log(MassInside(draw, normals));
   kernels_[static_cast<std::size_t>(draw)].log_constant = kernel.log_constant;
   for (Eigen::Index k = 0; k < centre.size(); ++k) {
     for (const double face : {0.0, 1.0}) {

@@ -38,9 +38,10 @@ class DrawsDensity {
   };
   static Kernel MakeKernel(const Eigen::MatrixXd& covariance, double weight);
   Eigen::MatrixXd CovarianceRound(Eigen::Index draw) const;
-  // Of the cube and what is mirrored into it.
-  double MassInside(Eigen::Index draw) const;
-  void Mirror(Eigen::Index draw, std::vector<Eigen::RowVectorXd>& images);
+  // The share of a kernel in the cube, with what is mirrored into it. `normals`: one draw a column.
+  double MassInside(Eigen::Index draw, const Eigen::MatrixXd& normals) const;
+  void Mirror(Eigen::Index draw, const Eigen::MatrixXd& normals,
+              std::vector<Eigen::RowVectorXd>& images);
 
   Eigen::Index num_draws_;
   Eigen::MatrixXd centres_;  // the draws, the centre of the broad Gaussian, and mirror images

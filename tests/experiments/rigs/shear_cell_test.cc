@@ -12,7 +12,6 @@
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
 #include "experiments/rigs/shear_cell/yield_line.h"
-#include "tests/error_in.h"
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
@@ -139,7 +138,7 @@ std::string ErrorOf(const std::string& rig, const std::string& modulus = "10 MPa
                            modulus + R"("}, "mass": "2.2 g"},
     "rig": {"kind": "shear_cell", "diameter": "14 mm")" +
                            rig + "}}";
-  return ErrorIn([&] { LoadCase(base::ParseJson(text, "case.json")); });
+  return rigs::ErrorOf(text.c_str());
 }
 
 TEST(ShearCell, WhatCannotBeShearedIsRefused) {
