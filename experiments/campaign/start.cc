@@ -289,8 +289,10 @@ journal::ExperimentRecord MakeExperimentRecord(const CampaignSpec& campaign, int
     AddImages(spec, rig_case, record);
   }
   for (const ScalarSpec& scalar : ScalarsOf(spec)) {
-    record.scalars.push_back(
-        {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
+    record.scalars.push_back({.name = scalar.metric,
+                              .value = scalar.value,
+                              .standard_error = scalar.standard_error,
+                              .degrees = scalar.degrees});
   }
   return record;
 }

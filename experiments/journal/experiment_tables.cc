@@ -40,11 +40,11 @@ void ReadRuns(Database& database, std::vector<ExperimentRecord>& experiments) {
 
 void ReadScalars(Database& database, std::vector<ExperimentRecord>& experiments) {
   Statement row = database.Prepare(
-      "SELECT experiment, name, value, standard_error FROM experiment_scalars ORDER BY experiment, "
-      "position");
+      "SELECT experiment, name, value, standard_error, degrees_of_freedom FROM experiment_scalars "
+      "ORDER BY experiment, position");
   while (row.Step()) {
     ScalarRecord& scalar = OwnerOf(row, experiments).scalars.emplace_back();
-    row.Read(1, scalar.name, scalar.value, scalar.standard_error);
+    row.Read(1, scalar.name, scalar.value, scalar.standard_error, scalar.degrees);
   }
 }
 
@@ -78,8 +78,8 @@ void InsertExperiment(Database& database, std::int64_t position, const Experimen
   }
   i = 0;
   for (const ScalarRecord& scalar : e.scalars) {
-    database.Prepare("INSERT INTO experiment_scalars VALUES (?1, ?2, ?3, ?4, ?5)")
-        .Bind(position, i++, scalar.name, scalar.value, scalar.standard_error)
+    database.Prepare("INSERT INTO experiment_scalars VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
+        .Bind(position, i++, scalar.name, scalar.value, scalar.standard_error, scalar.degrees)
         .Finish();
   }
   i = 0;

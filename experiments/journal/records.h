@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/student_factor.h"
 
 namespace talus::journal {
 
@@ -65,8 +66,20 @@ struct ScalarRecord {
   std::string name;  // of the metric that trials are measured by: "mass_fallen_kg"
   double value = 0;
   double standard_error = 0;  // of the value, > 0
+  // Of freedom that the error has, one fewer than the values that it is of; 0: it is stated, and
+  // counts as exact.
+  int degrees = 0;
 
-  TALUS_FIELDS(name, value, standard_error);
+  static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
+  TALUS_FIELDS(name, value, standard_error, degrees);
+
+  // The error that a normal value would have with as wide a 90 % range.
+  double NormalError() const {
+    constexpr double kRange = 0.9;
+    if (degrees == 0) return standard_error;
+    return standard_error * base::StudentFactor(degrees, kRange) /
+           base::StudentFactor(std::numeric_limits<double>::infinity(), kRange);
+  }
 };
 
 // What is doubtful about an experiment's photographs.

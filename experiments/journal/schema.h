@@ -6,7 +6,7 @@ namespace talus::journal {
 // "talu", so that `file` and we tell a journal from another SQLite file.
 inline constexpr int kJournalApplicationId = 0x74616c75;
 // Grows with every change of the tables. Journals of another version are refused.
-inline constexpr int kSchemaVersion = 7;
+inline constexpr int kSchemaVersion = 8;
 
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE campaign (
@@ -56,6 +56,7 @@ CREATE TABLE experiment_scalars (
   name TEXT NOT NULL,             -- of the trials' metric, with the unit: mass_fallen_kg
   value REAL NOT NULL,
   standard_error REAL NOT NULL,
+  degrees_of_freedom INTEGER NOT NULL,  -- of the error; 0: it was stated
   PRIMARY KEY (experiment, position)
 ) WITHOUT ROWID;
 CREATE TABLE experiment_warnings (

@@ -250,6 +250,17 @@ std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) con
   return all;
 }
 
+std::vector<double> ExperimentModel::ScalarNoise(const Eigen::VectorXd& x) const {
+  std::vector<double> noise;
+  for (const ScalarTarget& scalar : setup_.target->scalars) {
+    const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(noise.size());
+    const double mean = outputs_.output(output).PredictAll(x.transpose()).mean[0];
+    noise.push_back(CompressionScale(scalar) * std::cosh(mean) *
+                    std::sqrt(outputs_.TargetNoise(output)));
+  }
+  return noise;
+}
+
 Eigen::VectorXd ExperimentModel::OutputsOf(std::span<const float> field,
                                            const std::vector<double>& scalars) const {
   Eigen::VectorXd outputs(num_outputs());

@@ -139,6 +139,9 @@ class ExperimentModel {
   // Each scalar at the target, its median and its surrogate's sd, in its own unit; one a column.
   std::vector<Moments> Scalars(const Eigen::MatrixXd& points) const;
 
+  // By how much each scatters from simulation to simulation at the target at x, in its own unit.
+  std::vector<double> ScalarNoise(const Eigen::VectorXd& x) const;
+
   // The outputs of one simulation: the coefficients of its image and its numbers, compressed; NaN
   // for a number that is undefined. `field` is empty without images.
   Eigen::VectorXd OutputsOf(std::span<const float> field, const std::vector<double>& scalars) const;

@@ -73,11 +73,18 @@ double ChanceTogether(const std::vector<double>& probabilities) {
   return probabilities.empty() ? 1 : std::min(sum, 1.0);
 }
 
-double ChanceOf(double difference, double standard_error, int num_runs) {
+KnownError ErrorOfDifference(const KnownError& a, const KnownError& b) {
+  const double square = a.value * a.value + b.value * b.value;
+  const double share_a = a.value * a.value / square, share_b = b.value * b.value / square;
+  return {.value = std::sqrt(square),
+          .degrees = 1 / (share_a * share_a / a.degrees + share_b * share_b / b.degrees)};
+}
+
+double ChanceOf(double difference, const KnownError& error) {
   // Student's tail is a difference of shares near 1, no better than its integral.
   constexpr double kLeast = 1e-9;
-  const double degrees = num_runs > 2 ? num_runs - 2 : std::numeric_limits<double>::infinity();
-  return std::max(kLeast, 1 - base::StudentShare(degrees, std::abs(difference) / standard_error));
+  return std::max(kLeast,
+                  1 - base::StudentShare(error.degrees, std::abs(difference) / error.value));
 }
 
 BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {

@@ -137,10 +137,17 @@ PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
 // more there are. `probabilities` in (0, 1].
 double ChanceTogether(const std::vector<double>& probabilities);
 
-// The chance that a number's difference is as large, by Student's t: a standard error is known as
-// well as so many runs in the two batches tell it, and exactly where it is not of runs (two or
-// fewer).
-double ChanceOf(double difference, double standard_error, int num_runs);
+// A standard error and how many degrees of freedom it has; infinitely many: it is exact.
+struct KnownError {
+  double value = 0;
+  double degrees = 0;
+};
+
+// The error of a difference of two such (Welch and Satterthwaite).
+KnownError ErrorOfDifference(const KnownError& a, const KnownError& b);
+
+// The chance that a difference is as large, by Student's t.
+double ChanceOf(double difference, const KnownError& error);
 
 // The verdict on a batch that is not the first, by all else that the comparison holds. Photographs
 // and numbers of one test are of the same heaps: the least of their m chances counts m times

@@ -212,6 +212,13 @@ BatchPictures ComparePictures(const Batch& first, const Batch& batch, std::size_
   return pictures;
 }
 
+// A stated error is known as well as the heaps tell it that were photographed beside it.
+KnownError ErrorOf(const journal::ScalarRecord& number, const journal::ExperimentRecord& e) {
+  const int degrees = number.degrees > 0 ? number.degrees : e.num_heaps - 1;
+  return {.value = number.standard_error,
+          .degrees = degrees > 0 ? degrees : std::numeric_limits<double>::infinity()};
+}
+
 // The numbers that both have measured in the first batch's experiment `e`.
 void CompareNumbers(const Batch& first, const Batch& batch, std::size_t e,
                     std::vector<BatchNumber>& numbers) {
@@ -222,14 +229,13 @@ void CompareNumbers(const Batch& first, const Batch& batch, std::size_t e,
   for (const journal::ScalarRecord& of_first : a.scalars) {
     const auto found = std::ranges::find(b->scalars, of_first.name, &journal::ScalarRecord::name);
     if (found == b->scalars.end()) continue;
-    BatchNumber number{
-        .batch = batch.view.folder.root.string(),
-        .experiment = a.name,
-        .name = of_first.name,
-        .difference = found->value - of_first.value,
-        .standard_error = std::hypot(found->standard_error, of_first.standard_error)};
-    number.probability =
-        ChanceOf(number.difference, number.standard_error, a.num_heaps + b->num_heaps);
+    const KnownError error = ErrorOfDifference(ErrorOf(*found, *b), ErrorOf(of_first, a));
+    BatchNumber number{.batch = batch.view.folder.root.string(),
+                       .experiment = a.name,
+                       .name = of_first.name,
+                       .difference = found->value - of_first.value,
+                       .standard_error = error.value};
+    number.probability = ChanceOf(number.difference, error);
     numbers.push_back(std::move(number));
   }
 }

@@ -14,7 +14,7 @@ namespace talus::analysis {
 namespace {
 
 using campaign::Answer;
-using campaign::ConfirmedOf;
+using campaign::ConfirmedAtTarget;
 using campaign::Meets;
 using campaign::ResultConfirmed;
 using campaign::ResultStanding;
@@ -69,7 +69,7 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
   FitRow row{.experiment = record.name, .what = "shape", .measured = MeasuredRuns(record)};
   const campaign::MeasurementFit fit = campaign::ImageFit(answer, experiment);
   row.meets = fit.meets;
-  const ResultConfirmed* confirmed = ConfirmedOf(answer, record.name);
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, record.name);
   if (confirmed != nullptr && confirmed->profile_sad_mm2) {
     row.is_confirmed = true;
     row.simulated = SimulatedShape(*confirmed);
@@ -81,7 +81,10 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
     row.simulated =
         ShortText(standing->predicted) + " " + answer.objective_unit + " predicted, not confirmed";
   }
-  row.judgement = "not confirmed by a fresh seed";
+  row.judgement = answer.confirmed.empty()
+                      ? "not confirmed by a fresh seed"
+                      : "simulated again at scale factor " +
+                            base::ShortNumber(answer.confirmed.front().scale_factor) + " only";
   return row;
 }
 
@@ -109,7 +112,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
     row.simulated = "predicted " + shown(rigs::Possible(measured.name, number.predicted)) + " ± " +
                     base::PlainNumber(unit.per_unit * number.predicted_sd, 2) + ending;
   }
-  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   if (fit.undefined) {
     row.is_confirmed = true;
     row.simulated = "none";

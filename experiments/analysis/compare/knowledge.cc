@@ -88,7 +88,7 @@ std::vector<Sole> ObjectivesOf(const campaign::JointView& view, int experiment) 
   for (const journal::ScalarRecord& number : record.scalars) {
     all.push_back(SoleNumber(
         view, experiment,
-        {.name = number.name, .value = number.value, .standard_error = number.standard_error}));
+        {.name = number.name, .value = number.value, .standard_error = number.NormalError()}));
   }
   return all;
 }

@@ -34,6 +34,8 @@ Agreement AgreementOf(const JointView& view) {
   }
   Eigen::Index best = 0;
   misfit.rowwise().sum().minCoeff(&best);
+  const double moved = optimizer::MovedParameters(view.space.MakeDomain(), draws);
+  double freedom = -moved;
   double sum = 0;
   double most = 0;
   for (std::size_t k = 0; k < experiments.size(); ++k) {
@@ -41,15 +43,14 @@ Agreement AgreementOf(const JointView& view) {
     agreement.alone.push_back(AnswerOf(view, *alone, {experiments[k]}));
     const double least =
         posterior.SquaredMisfit(k, alone->Sample().Draws(kDraws, view.spec.seed)).minCoeff();
+    freedom += std::min(moved, static_cast<double>(posterior.models()[k].num_outputs()));
     const double pull = misfit(best, static_cast<Eigen::Index>(k)) - least;
     sum += pull;
     if (pull <= most) continue;
     most = pull;
     agreement.odd = agreement.alone.back().experiments.front();
   }
-  const double freedom = optimizer::MovedParameters(view.space.MakeDomain(), draws) *
-                         static_cast<double>(experiments.size() - 1);
-  agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
+  if (freedom > 0) agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
   return agreement;
 }
 

@@ -1,13 +1,15 @@
 // Whether the experiments of a campaign can be met by one set: the parameter goodness of fit
 // [maltoni2003]. From the trials there are; nothing is simulated.
 //
-//   Χ² = min Σ_e S_e - Σ_e min S_e,   d (E - 1) degrees of freedom
+//   Χ² = min Σ_e S_e - Σ_e min S_e,   Σ_e min(d, K_e) - d degrees of freedom
 //
 // S_e is an experiment's sum of squared residuals over the temper at a set, looked at over draws of
-// the joint posterior and of each alone, E the number of
-// experiments and d that of parameters which the data move
-// (optimizer/posterior/sample_statistics.h). Each test may fit well enough where it stands and
-// still pull elsewhere: two misfits that are no surprise by themselves can be one together.
+// the joint posterior and of each alone, K_e the number of its outputs (modes of its image, and
+// numbers) and d that of parameters which the data move
+// (optimizer/posterior/sample_statistics.h). Tests of fewer outputs than that meet themselves
+// somewhere, and tell only what is over; where nothing is, there is no tension. Each test may fit
+// well enough where it stands and still pull elsewhere: two misfits that are no surprise by
+// themselves can be one together.
 #pragma once
 
 #include <string>

@@ -37,14 +37,15 @@ double WithoutScatter(const ResultConfirmed& confirmed) {
 }
 
 std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperiment& experiment) {
-  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (confirmed == nullptr || standing == nullptr) return std::nullopt;
   const double mean = WithoutScatter(*confirmed);
   const double excess = mean - standing->predicted;
   const double least = std::max(kLeastShare * standing->predicted,
                                 kLeastOfFloor * experiment.noise_floor.value_or(0));
-  const double error = std::hypot(ErrorOf(experiment, *confirmed), OrZero(standing->predicted_sd));
+  const double error =
+      std::hypot(ErrorOf(answer, experiment, *confirmed), OrZero(standing->predicted_sd));
   if (!(excess > kSurprise * error) || !(excess > least)) return std::nullopt;
   return Alarm{.kind = AlarmKind::kWorseThanPredicted,
                .experiment = experiment.name,
@@ -234,8 +235,8 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (confirmed == nullptr && standing == nullptr) return {};
   const double shown = confirmed != nullptr ? confirmed->mean : standing->predicted;
-  const double error =
-      confirmed != nullptr ? ErrorOf(experiment, *confirmed) : OrZero(standing->predicted_sd);
+  const double error = confirmed != nullptr ? ErrorOf(answer, experiment, *confirmed)
+                                            : OrZero(standing->predicted_sd);
   const double factor =
       confirmed != nullptr ? answer.confirmed.front().scale_factor : answer.conditions.scale_factor;
   const Reference& reference = references[0];  // of `experiment`, the first
@@ -243,7 +244,7 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
   if (best == nullptr || !std::isfinite(shown)) return {};
   const double excess = shown - *reference.Value(*best);
   // The best of many trials owes something to luck: its own scatter counts.
-  if (!(excess > kSurprise * std::hypot(error, experiment.noise_sd.value_or(0))) ||
+  if (!(excess > kSurprise * std::hypot(error, NoiseOfConfirming(answer, experiment))) ||
       !(excess > kLeastShare * shown)) {
     return {};
   }

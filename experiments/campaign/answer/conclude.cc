@@ -99,9 +99,10 @@ base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidat
   return scatter;
 }
 
-// Two or three seeds say little of their own scatter; all sets that were simulated again say more.
-void AddStandardErrors(const Planner& planner, const std::vector<Candidate>& simulated,
-                       Answer& result) {
+// Two or three seeds say little of their own scatter; all sets that were simulated again say more,
+// and of one seed of each the model alone says something. `target`: the scale factor that it is of.
+void AddStandardErrors(Planner& planner, const Eigen::VectorXd& recommended,
+                       const std::vector<Candidate>& simulated, double target, Answer& result) {
   const std::string_view sad_metric = journal::InfoOf(journal::Objective::kSad).metric;
   for (ResultCandidate& candidate : result.confirmed) {
     for (std::size_t e = 0; e < candidate.experiments.size(); ++e) {
@@ -114,11 +115,16 @@ void AddStandardErrors(const Planner& planner, const std::vector<Candidate>& sim
           confirmed.sad_standard_error = scatter.StandardError(confirmed.num_trials);
         }
       }
-      for (ResultScalar& scalar : confirmed.scalars) {
+      const std::vector<double> noise = planner.NumberNoise(recommended, index);
+      for (std::size_t s = 0; s < confirmed.scalars.size(); ++s) {
+        ResultScalar& scalar = confirmed.scalars[s];
         const auto scatter = ScatterOf(planner, simulated, index, scalar.name);
         if (scalar.num_trials == 0) continue;
         scalar.standard_error = scatter.StandardError(scalar.num_trials);
         scalar.degrees = scatter.degrees;
+        if (scatter.degrees > 0 || noise.empty()) continue;
+        scalar.standard_error = noise[s] * std::pow(candidate.scale_factor / target, 1.5) /
+                                std::sqrt(scalar.num_trials);
       }
     }
   }
@@ -215,7 +221,7 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
   }
 }
 
-void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
+void AddConfirmation(const optimizer::Answer& answer, Planner& planner,
                      const CampaignEvidence& evidence, Answer& result) {
   const std::vector<Candidate> all = planner.Candidates(answer);
   for (const Candidate& simulated : all) {
@@ -225,7 +231,7 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
       result.confirmed.push_back(std::move(candidate));
     }
   }
-  AddStandardErrors(planner, all, result);
+  AddStandardErrors(planner, answer.point, all, evidence.spec.coarse_graining.Target(), result);
 }
 
 ResultConditions ConditionsOf(const CampaignSpec& spec) {

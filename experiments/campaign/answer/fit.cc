@@ -31,7 +31,7 @@ double ChanceOf(const Answer& answer, const ResultExperiment& experiment,
                 const ResultConfirmed& confirmed) {
   const double seeds = OrZero(confirmed.sad_standard_error.value_or(0));
   if (MinimisesSad(answer) && experiment.noise_sd) {
-    return kFarImage * std::max(seeds, ErrorOf(experiment, confirmed));
+    return kFarImage * std::max(seeds, ErrorOf(answer, experiment, confirmed));
   }
   if (confirmed.degrees == 0) return 0;
   return seeds * std::max(kFarImage, base::StudentFactor(confirmed.degrees, kNoChance));
@@ -62,15 +62,20 @@ double OffBy(const ResultNumber& measured, const ResultScalar& simulated) {
   return OffBy(measured, simulated.mean, simulated.standard_error);
 }
 
-// An error of the simulations whose degrees of freedom are not known counts as exact.
+// How many standard errors chance may make of an error of so many degrees of freedom; 0: exact.
+double MostByChance(int degrees) {
+  return base::StudentFactor(degrees > 0 ? degrees : std::numeric_limits<double>::infinity(),
+                             kNoChance);
+}
+
+// Without an error of the simulations nothing is far.
 Meets NumberMeets(const ResultNumber& measured, double off, double simulated_error, int degrees) {
   if (!std::isfinite(off)) return Meets::kUnknown;
   if (off <= kCloseNumber) return Meets::kYes;
-  const double exact = base::StudentFactor(std::numeric_limits<double>::infinity(), kNoChance);
-  const double few = degrees > 0 ? base::StudentFactor(degrees, kNoChance) : exact;
-  const double error = OrZero(simulated_error);
-  const double limit = std::hypot(exact * measured.standard_error, few * error) /
-                       std::hypot(measured.standard_error, error);
+  if (!std::isfinite(simulated_error)) return Meets::kUnknown;
+  const double limit = std::hypot(MostByChance(measured.degrees) * measured.standard_error,
+                                  MostByChance(degrees) * simulated_error) /
+                       std::hypot(measured.standard_error, simulated_error);
   return off > limit ? Meets::kNo : Meets::kUnknown;
 }
 
@@ -81,9 +86,23 @@ bool IsImplausible(const Answer& answer, const std::string& experiment) {
 
 }  // namespace
 
-double ErrorOf(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
-  return std::max(OrZero(confirmed.standard_error),
-                  experiment.noise_sd.value_or(0) / std::sqrt(std::max(1, confirmed.num_trials)));
+const ResultConfirmed* ConfirmedAtTarget(const Answer& answer, std::string_view experiment) {
+  if (answer.confirmed.empty()) return nullptr;
+  const bool is_there = answer.confirmed.front().scale_factor == answer.conditions.scale_factor;
+  return is_there ? ConfirmedOf(answer, experiment) : nullptr;
+}
+
+double NoiseOfConfirming(const Answer& answer, const ResultExperiment& experiment) {
+  if (answer.confirmed.empty()) return experiment.noise_sd.value_or(0);
+  const double coarser = answer.confirmed.front().scale_factor / answer.conditions.scale_factor;
+  return experiment.noise_sd.value_or(0) * std::pow(coarser, 1.5);
+}
+
+double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
+               const ResultConfirmed& confirmed) {
+  return std::max(
+      OrZero(confirmed.standard_error),
+      NoiseOfConfirming(answer, experiment) / std::sqrt(std::max(1, confirmed.num_trials)));
 }
 
 double SadWithoutScatter(const ResultConfirmed& confirmed) {
@@ -95,7 +114,7 @@ double SadWithoutScatter(const ResultConfirmed& confirmed) {
 MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment) {
   MeasurementFit fit{.experiment = experiment.name};
   if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
-  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   if (confirmed == nullptr || !confirmed->profile_sad_mm2) return fit;
   if (experiment.powder_area) fit.share = *confirmed->profile_sad_mm2 / *experiment.powder_area;
   if (confirmed->over_floor) fit.off = *confirmed->over_floor;
@@ -107,7 +126,7 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
                          std::size_t number) {
   const ResultNumber& measured = experiment.numbers[number];
   MeasurementFit fit{.experiment = experiment.name, .number = measured.name};
-  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (confirmed != nullptr && confirmed->scalars.at(number).undefined) {
     fit.undefined = confirmed->scalars[number].undefined;
@@ -132,6 +151,7 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
 }
 
 bool Misses(const Answer& answer, const ResultCandidate& candidate) {
+  if (candidate.scale_factor != answer.conditions.scale_factor) return false;
   for (const ResultConfirmed& confirmed : candidate.experiments) {
     const auto experiment =
         std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);

@@ -16,12 +16,17 @@
 //
 // One effective number of degrees of freedom for both would be exceeded 8 times in a hundred where
 // two seeds tell e. So a set that fits is said to miss in one of a hundred campaigns, about
-// (false_misses_test.cc counts); in between nothing is said. A number that none of the confirming
+// (false_misses_test.cc counts); in between nothing is said. An s of a few values has its own
+// degrees of freedom, and takes their factor in place of t∞. A number that none of the confirming
 // trials has is missed: what was measured does not exist there.
+//
+// Coarser grains than the target's bias a heap: what they meet or miss the answer need not. Where
+// the confirming trials are of such, the model's prediction at the target is judged in their place.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/campaign/answer/answer.h"
@@ -46,6 +51,9 @@ struct MeasurementFit {
   std::optional<std::string> undefined{};  // of a number: why no confirming trial has one
 };
 
+// The confirming trials of an experiment, where they are of the target scale factor; else null.
+const ResultConfirmed* ConfirmedAtTarget(const Answer& answer, std::string_view experiment);
+
 // The image of an experiment, or a number of it by its place in the list.
 MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment);
 MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experiment,
@@ -62,8 +70,14 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate);
 // exist there. NaN with nothing to judge by.
 double FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
 
-// Error of the objective's confirmed mean. A few seeds that happen to agree say little of it.
-double ErrorOf(const ResultExperiment& experiment, const ResultConfirmed& confirmed);
+// Error of the recommended set's confirmed objective. A few seeds that happen to agree say little
+// of it.
+double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
+               const ResultConfirmed& confirmed);
+
+// By how much the objective of one confirming trial scatters, by the model; 0 where it is not
+// known. Grains f times as large scatter by f^1.5, a heap having f⁻³ as many.
+double NoiseOfConfirming(const Answer& answer, const ResultExperiment& experiment);
 
 // The SAD that the set would have without the scatter of its simulations.
 double SadWithoutScatter(const ResultConfirmed& confirmed);

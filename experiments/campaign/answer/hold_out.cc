@@ -26,7 +26,7 @@ PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::M
   base::Random random(seed, base::Stream("held out"));
   std::vector<double> draws;
   for (Eigen::Index i = 0; i < at.mean.size(); ++i) {
-    draws.push_back(at.mean[i] + std::hypot(at.sd[i], scalar.standard_error) * random.Normal());
+    draws.push_back(at.mean[i] + std::hypot(at.sd[i], scalar.NormalError()) * random.Normal());
   }
   std::sort(draws.begin(), draws.end());
   const auto quantile = [&](double share) {

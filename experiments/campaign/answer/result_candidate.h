@@ -20,10 +20,10 @@ struct ResultScalar {
   std::string name{};
   int num_trials = 0;  // that have it
   double mean = kNotKnown;
-  // The mean's, by the scatter within all sets that were simulated again; not known where each
-  // has one trial.
+  // The mean's, by the scatter within all sets that were simulated again; where each has one trial,
+  // by the model.
   double standard_error = kNotKnown;
-  int degrees = 0;                         // of freedom that the standard error has; 0: not known
+  int degrees = 0;  // of freedom that the standard error has; 0: it is the model's, or not known
   std::optional<std::string> undefined{};  // why none of the trials has a value
 
   static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};

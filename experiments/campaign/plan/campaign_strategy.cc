@@ -24,7 +24,7 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
     }
     for (const journal::ScalarRecord& scalar : experiment.scalars) {
       target.scalars.push_back(
-          {.name = scalar.name, .value = scalar.value, .standard_error = scalar.standard_error});
+          {.name = scalar.name, .value = scalar.value, .standard_error = scalar.NormalError()});
     }
     for (const double factor : spec.coarse_graining.Levels()) {
       target.costs.push_back(GrainStepsOf(spec, static_cast<int>(e), factor) / kUsualSpeed);

@@ -284,9 +284,10 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
 }
 
 std::optional<optimizer::StopShortfall> Planner::Shortfall() {
-  if (!stop_ || (stop_->kind != StopKind::kSimulations && stop_->kind != StopKind::kCoreTime)) {
-    return std::nullopt;
-  }
+  if (!stop_) return std::nullopt;
+  const bool is_budget = stop_->kind == StopKind::kSimulations ||
+                         stop_->kind == StopKind::kCoreTime || stop_->kind == StopKind::kWallClock;
+  if (!is_budget) return std::nullopt;
   return Chooser().Shortfall();
 }
 
@@ -304,6 +305,11 @@ std::optional<double> Planner::NoiseSd(const Eigen::VectorXd& point, int experim
   const auto& model = posterior_->Model().models()[static_cast<std::size_t>(experiment)];
   if (!model.has_image()) return std::nullopt;
   return model.ObjectiveNoise(point);
+}
+
+std::vector<double> Planner::NumberNoise(const Eigen::VectorXd& point, int experiment) {
+  if (!posterior_->CanModel()) return {};
+  return posterior_->Model().models()[static_cast<std::size_t>(experiment)].ScalarNoise(point);
 }
 
 std::vector<float> Planner::PredictedField(const Eigen::VectorXd& point, int experiment) {

@@ -71,6 +71,9 @@ class Planner {
   // nothing without an image or while there are too few trials.
   std::optional<double> NoiseSd(const Eigen::VectorXd& point, int experiment);
 
+  // The same of each number of an experiment, in its metric's unit; empty while there are too few.
+  std::vector<double> NumberNoise(const Eigen::VectorXd& point, int experiment);
+
   // The mean image of an experiment there by that model, as Reference::ImageOf takes it; empty
   // where NoiseSd has nothing.
   std::vector<float> PredictedField(const Eigen::VectorXd& point, int experiment);

@@ -18,6 +18,7 @@ struct Collector {
     if constexpr (requires { number->Value(); }) {
       scalar.value = number->Value() * unit.scale;
       scalar.standard_error = number->StandardError() * unit.scale;
+      scalar.degrees = number->Degrees();
     } else {
       scalar.standard_error = number->standard_error * unit.scale;
     }

@@ -28,8 +28,11 @@ struct MeasuredNumber {
   double StandardError() const {
     if (!values || values->size() < 2) return standard_error.value_or(0);
     const double scatter = base::SampleOf(*values).StandardError();
-    const bool is_alike = kYesNo && !(scatter > 0);
-    return is_alike ? rigs::kYesNoError / std::sqrt(static_cast<double>(values->size())) : scatter;
+    return IsAlike() ? rigs::kYesNoError / std::sqrt(static_cast<double>(values->size())) : scatter;
+  }
+  // Of freedom that the error has; 0: it is stated.
+  int Degrees() const {
+    return values && values->size() > 1 && !IsAlike() ? static_cast<int>(values->size()) - 1 : 0;
   }
 
   template <class Self, class Visitor>
@@ -56,6 +59,7 @@ struct MeasuredNumber {
   }
 
  private:
+  bool IsAlike() const { return kYesNo && !(base::SampleOf(*values).variance > 0); }
   void ValidateError(base::Problems& problems) const {
     problems.Require(!standard_error || (*standard_error > 0 && std::isfinite(*standard_error)),
                      "sd", standard_error.value_or(0),
@@ -138,6 +142,7 @@ struct ScalarSpec {
   std::string key;     // "mass_fallen"
   double value = 0;    // in the metric's unit, as the error
   double standard_error = 0;
+  int degrees = 0;  // of freedom that the error has (journal::ScalarRecord)
 };
 std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers);
 // Without values.

@@ -89,10 +89,21 @@ TEST(VerdictOf, PicturesOfAllTestsAreJudgedTogether) {
 // Three standard errors: 0.27 % where they are known exactly, 4.0 % by Student's t of 4 degrees of
 // freedom where three runs in each batch tell them (tables).
 TEST(ChanceOf, FewRunsKnowTheirErrorBadly) {
-  EXPECT_NEAR(ChanceOf(-0.3, 0.1, 1), 0.0027, 1e-5);
-  EXPECT_NEAR(ChanceOf(0.3, 0.1, 6), 0.0399, 1e-4);
-  EXPECT_EQ(ChanceOf(0, 0.1, 6), 1);
-  EXPECT_GT(ChanceOf(1e3, 0.1, 1), 0);  // whose logarithm is taken
+  constexpr double kExact = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(ChanceOf(-0.3, {0.1, kExact}), 0.0027, 1e-5);
+  EXPECT_NEAR(ChanceOf(0.3, {0.1, 4}), 0.0399, 1e-4);
+  EXPECT_EQ(ChanceOf(0, {0.1, 4}), 1);
+  EXPECT_GT(ChanceOf(1e3, {0.1, kExact}), 0);  // whose logarithm is taken
+}
+
+// Equal errors of three runs each know what six less two do; one that is much the larger decides.
+TEST(ErrorOfDifference, HasTheDegreesOfFreedomOfBoth) {
+  const KnownError equal = ErrorOfDifference({0.3, 2}, {0.3, 2});
+  EXPECT_NEAR(equal.value, 0.3 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(equal.degrees, 4, 1e-9);
+  EXPECT_NEAR(ErrorOfDifference({0.001, 9}, {0.3, 1}).degrees, 1, 1e-3);
+  EXPECT_NEAR(ErrorOfDifference({0.3, std::numeric_limits<double>::infinity()}, {0.3, 1}).degrees,
+              4, 1e-9);
 }
 
 TEST(VerdictOf, ANumberIsJudgedWithThePhotographsOfItsHeaps) {

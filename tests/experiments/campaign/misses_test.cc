@@ -19,7 +19,7 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   Answer answer = ConfirmedAt(4);
   answer.experiments[0].has_image = false;
   answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
-  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 45}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 45, .standard_error = 0}};
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
   HeapOf(answer).scalars[0].mean = 47.5;
   const auto alarms = MissAlarms(answer);
@@ -33,6 +33,12 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   HeapOf(answer).scalars[0].standard_error = 2.4;
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
   HeapOf(answer).scalars[0].standard_error = kNotKnown;
+  EXPECT_THAT(MissAlarms(answer), IsEmpty());
+  HeapOf(answer).scalars[0].standard_error = 0;
+  // The error of two values may be a fifth of what it seems: 5 of them are no more than chance.
+  answer.experiments[0].numbers[0].degrees = 1;
+  EXPECT_THAT(MissAlarms(answer), IsEmpty());
+  answer.experiments[0].numbers[0].degrees = 0;
   // Where no set fits, that is said instead.
   answer.posterior->experiments[0].implausibility = 3.4;
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
@@ -70,7 +76,7 @@ TEST(Misses, AreSaidWithoutAModel) {
   answer.parameters = {{.name = "friction"}};
   answer.experiments[0].has_image = false;
   answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
-  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54, .standard_error = 1}};
   const auto alarms = MissAlarms(answer);
   ASSERT_THAT(alarms, SizeIs(1));
   EXPECT_EQ(alarms[0].kind, AlarmKind::kSearchMisses);
@@ -166,8 +172,12 @@ TEST_F(MissedImage, MayBeOfCoarseGrains) {
   const auto has_finer = HasSubstr("grains 2 times as large as yours may be what misses it");
   EXPECT_THAT(AlarmText(OnlyAlarm()), testing::Not(HasSubstr("as large as yours")));
   answer_.conditions.scale_factor = 2;
+  // Simulated again at another scale factor, it says nothing of the answer's.
+  EXPECT_THAT(MissAlarms(answer_), IsEmpty());
+  answer_.confirmed[0].scale_factor = 2;
   EXPECT_THAT(AlarmText(OnlyAlarm()), has_finer);
   AddEnd(1.2);
+  answer_.confirmed[1].scale_factor = 2;
   EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
   EXPECT_THAT(AlarmText(OnlyAlarm()), has_finer);
 }
