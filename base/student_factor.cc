@@ -49,4 +49,10 @@ double StudentShare(double degrees, double t) {
   return std::min(ShareAt(nu, std::atan(t / std::sqrt(nu))), 1.0);
 }
 
+double NormalError(double standard_error, int degrees) {
+  constexpr double kRange = 0.9;
+  if (degrees == 0) return standard_error;
+  return standard_error * StudentFactor(degrees, kRange) / StudentFactor(kLikeNormal, kRange);
+}
+
 }  // namespace talus::base

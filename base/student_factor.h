@@ -15,4 +15,7 @@ double StudentFactor(double degrees, double share);
 // Its inverse: P(|T| ≤ t), t >= 0.
 double StudentShare(double degrees, double t);
 
+// The standard error of a normal variable with as wide a 90 % range; 0 degrees: it is exact.
+double NormalError(double standard_error, int degrees);
+
 }  // namespace talus::base

@@ -73,13 +73,8 @@ struct ScalarRecord {
   static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
   TALUS_FIELDS(name, value, standard_error, degrees);
 
-  // The error that a normal value would have with as wide a 90 % range.
-  double NormalError() const {
-    constexpr double kRange = 0.9;
-    if (degrees == 0) return standard_error;
-    return standard_error * base::StudentFactor(degrees, kRange) /
-           base::StudentFactor(std::numeric_limits<double>::infinity(), kRange);
-  }
+  // As of a normal value.
+  double NormalError() const { return base::NormalError(standard_error, degrees); }
 };
 
 // What is doubtful about an experiment's photographs.

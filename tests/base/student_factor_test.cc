@@ -33,6 +33,13 @@ TEST(StudentShare, IsTheInverse) {
   }
 }
 
+// t(0.9) of tables over 1.645.
+TEST(NormalError, IsWiderByFewValues) {
+  EXPECT_EQ(NormalError(2, 0), 2);
+  EXPECT_NEAR(NormalError(2, 1), 2 * 6.314 / 1.645, 0.01);
+  EXPECT_NEAR(NormalError(2, 2), 2 * 2.920 / 1.645, 0.01);
+}
+
 TEST(PooledScatter, IsThatWithinGroupsWhateverTheirMeans) {
   PooledScatter scatter;
   EXPECT_TRUE(std::isnan(scatter.StandardError(3)));

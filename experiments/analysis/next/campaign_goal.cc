@@ -64,7 +64,7 @@ void Judge(const campaign::CampaignSpec& spec, const NumberSurrogate& surrogate,
   const surrogate::Predictions at = surrogate.At(ground.draws);
   ground.goal = at.mean;
   state.parameters_half_width = optimizer::HalfWidth90(at.mean);
-  state.surrogate_half_width = kNinety * std::sqrt(at.variance.mean());
+  state.surrogate_half_width = kNinety * kOverconfidence * std::sqrt(at.variance.mean());
   state.half_width = std::hypot(state.parameters_half_width, state.surrogate_half_width);
   const double least =
       LearnWithoutSurrogate(ground, KnownExperiments(ground, strategy.Model())).goal_half_width;

@@ -6,9 +6,10 @@ namespace talus::analysis {
 
 std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView& view,
                                                       const std::vector<double>& scale_factors,
-                                                      optimizer::ExperimentTarget target) {
+                                                      optimizer::ExperimentTarget target,
+                                                      double target_factor) {
   const optimizer::PosteriorStrategyOptions options{
-      .scale_factors = scale_factors, .target = 0, .seed = view.spec.seed};
+      .scale_factors = scale_factors, .target = target_factor, .seed = view.spec.seed};
   return std::make_unique<optimizer::PosteriorStrategy>(
       options, view.space.MakeDomain(),
       std::vector<optimizer::ExperimentTarget>{std::move(target)});

@@ -14,7 +14,7 @@ struct Ground {
   const campaign::JointView& view;
   double temper = 1;       // of all variances: the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
-  double model_error = 1;  // PosteriorOptions
+  double model_error = 1;  // of a test that was not made: the tests' that were [rms]
   // Share of its surrogate's error in the variances of a further test's outputs, in [0, 1).
   double surrogate_share = 0;
   Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
@@ -27,11 +27,12 @@ struct Ground {
   }
 };
 
-// A model of a test that was not made, simulated at these scale factors; its target is what the
-// simulations show on average.
+// A model of a test that was not made, simulated at these scale factors and asked at
+// `target_factor`, 0 for the finest; its target is what the simulations show on average.
 std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView& view,
                                                       const std::vector<double>& scale_factors,
-                                                      optimizer::ExperimentTarget target);
+                                                      optimizer::ExperimentTarget target,
+                                                      double target_factor = 0);
 
 // Variance of each output as measured by so many runs, with the model's error; `to_target` is the
 // noise variance at the target over that of the simulations.

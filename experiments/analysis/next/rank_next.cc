@@ -95,10 +95,22 @@ void AddMoreOfTheSame(const Ground& ground, const std::vector<Known>& experiment
   }
 }
 
+// The model error of a test that was not made.
+double UsualModelError(const optimizer::Posterior& posterior) {
+  double squares = 0;
+  for (const optimizer::ExperimentModel& model : posterior.models()) {
+    squares += std::pow(model.model_error().value, 2);
+  }
+  return std::sqrt(squares / static_cast<double>(posterior.models().size()));
+}
+
 // The balance, where trials know what falls and the experiment has not weighed it.
-void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
+void AddNumbers(const Ground& ground, const optimizer::Posterior& posterior,
+                std::vector<NextCandidate>& all) {
   const JointView& view = ground.view;
-  for (const int e : view.Answered()) {
+  const std::vector<int> answered = view.Answered();
+  for (std::size_t k = 0; k < answered.size(); ++k) {
+    const int e = answered[k];
     const journal::ExperimentRecord& record = view.record.experiments[static_cast<std::size_t>(e)];
     if (!record.scalars.empty()) continue;
     const std::string fallen = rigs::MetricName(rigs::Observable::kMassFallen);
@@ -115,17 +127,20 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
     if (values.empty() || *std::max_element(values.begin(), values.end()) <= 0) continue;
     optimizer::ExperimentTarget target{.name = record.name};
     target.scalars = {{.name = fallen, .value = base::SampleOf(values).mean, .standard_error = 0}};
-    const auto model = ModelOf(view, view.spec.coarse_graining.Levels(), std::move(target));
+    const auto& grains = view.spec.coarse_graining;
+    const auto model = ModelOf(view, grains.Levels(), std::move(target), grains.Target());
     for (const optimizer::Observation& observation : told) model->Tell(observation);
     if (!model->CanModel()) continue;
     const OutputPredictions at = model->Model().models().front().Predict(ground.draws);
     const int runs = std::max(1, record.num_heaps);
-    all.push_back({.kind = NextKind::kNumber,
-                   .name = "mass on the plate of " + record.name,
-                   .what = "weigh what stays on the plate, or what falls off it, in " +
-                           base::Counted(runs, "run"),
-                   .learning = ground.Learn(
-                       at.mean, MeasuredBy(ground, at, runs, 1) + SurrogateVariance(at))});
+    Ground own = ground;
+    own.model_error = posterior.models()[k].model_error().value;
+    all.push_back(
+        {.kind = NextKind::kNumber,
+         .name = "mass on the plate of " + record.name,
+         .what = "weigh what stays on the plate, or what falls off it, in " +
+                 base::Counted(runs, "run"),
+         .learning = ground.Learn(at.mean, MeasuredBy(own, at, runs, 1) + SurrogateVariance(at))});
   }
 }
 
@@ -291,7 +306,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   Ground ground{.view = view,
                 .temper = strategy->Model().temper(),
                 .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
-                .model_error = view.spec.posterior.model_error};
+                .model_error = UsualModelError(strategy->Model())};
   const std::vector<Known> experiments = KnownExperiments(ground, strategy->Model());
   ground.surrogate_share = SurrogateShare(experiments);
   NextTable table{.parameters = view.record.parameters, .nuisances = view.space.Nuisances()};
@@ -308,7 +323,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
   Cost cost(view);
   AddMoreOfTheSame(ground, experiments, cost, table.candidates);
-  AddNumbers(ground, table.candidates);
+  AddNumbers(ground, strategy->Model(), table.candidates);
   AddDirect(ground, table.candidates);
   const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
   table.candidates.insert(table.candidates.end(), tests.begin(), tests.end());

@@ -39,8 +39,11 @@ std::vector<Move> UsualThere(const campaign::JointView& view, const SensitivityT
     const optimizer::Parameter& p = view.space.parameters[static_cast<std::size_t>(free[i])];
     point[static_cast<Eigen::Index>(i)] = p.ToUnit(table.parameters[i].value);
   }
-  return UsualMoves(
-      view, campaign::CaseAt(view.spec, point, view.Answered().front(), table.scale_factor));
+  std::vector<rigs::Case> experiments;
+  for (const int e : view.Answered()) {
+    experiments.push_back(campaign::CaseAt(view.spec, point, e, table.scale_factor));
+  }
+  return UsualMoves(view, experiments);
 }
 
 // The same of this test: as usual what was moved as usual, else to the value that the user gave.

@@ -357,7 +357,13 @@ class Predictor {
 
   void NoteScaleFactor(Prediction& prediction) const {
     const double target = view_.spec.coarse_graining.Target();
-    if (!case_.scene_text.empty() || prediction.target <= target) return;
+    // A surrogate carries a number on to the target; the draws, where it is not used, do not.
+    const bool is_carried =
+        prediction.target <= target &&
+        std::ranges::all_of(prediction.numbers, [](const PredictedNumber& number) {
+          return !number.is_usual || (number.surrogate && number.surrogate->is_used);
+        });
+    if (!case_.scene_text.empty() || ScaleFactor() <= target || is_carried) return;
     prediction.notes.push_back("simulated at scale factor " + base::ShortNumber(ScaleFactor()) +
                                ", where the answer is for " + base::ShortNumber(target) +
                                ": what coarse grains change in this test is not known; --scale " +

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/sample.h"
+#include "base/student_factor.h"
 #include "base/text/joined.h"
 #include "experiments/analysis/predict/prediction_pictures.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
@@ -30,7 +31,10 @@ double MeanSd(const PredictedNumber& predicted, const Spread& spread, int num_se
 
 MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
                     const PredictedNumber& predicted, int num_seeds) {
-  const Range range = spread.Ninety(number.standard_error);
+  // The mean of several values scatters by its own error, not by a single run's.
+  const bool is_mean = number.degrees > 0;
+  const double error = base::NormalError(number.standard_error, number.degrees);
+  const Range range = (is_mean ? spread.OfMeans() : spread).Ninety(error);
   MeasuredThere there{.value = number.value,
                       .standard_error = number.standard_error,
                       .low = range.low,
@@ -43,8 +47,8 @@ MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
     nearest = distance;
     there.nearest_draw = static_cast<int>(d);
   }
-  const double run_sd = std::isnan(spread.run_sd()) ? 0 : spread.run_sd();
-  const double sd = std::hypot(run_sd, MeanSd(predicted, spread, num_seeds), number.standard_error);
+  const double run_sd = is_mean || std::isnan(spread.run_sd()) ? 0 : spread.run_sd();
+  const double sd = std::hypot(run_sd, MeanSd(predicted, spread, num_seeds), error);
   there.nearest_is_inside = nearest <= kNinety * sd;
   return there;
 }
@@ -254,8 +258,13 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
   }
   if (all.empty()) return std::nullopt;
   const imaging::GrayImage mean = WeightedMean(means, weights);
+  // As with `own`: this mean has every run in it.
+  double total = 0, squares = 0;
+  for (const SeenRun& run : all) total += run.weight;
+  for (const SeenRun& run : all) squares += std::pow(run.weight / total, 2);
+  const double another = std::sqrt((1 + squares) / std::max(1 - squares, 1e-9));
   std::vector<Weighted> spread;
-  for (const SeenRun& run : all) spread.push_back({sad(run.image, mean), run.weight});
+  for (const SeenRun& run : all) spread.push_back({sad(run.image, mean) * another, run.weight});
   image.sad_mm2 = sad(measured.image, mean);
   if (all.size() > 1) image.sad_90_mm2 = Quantile90(spread);
   image.is_inside = image.sad_mm2 <= image.sad_90_mm2;

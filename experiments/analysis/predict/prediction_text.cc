@@ -49,7 +49,8 @@ std::string SetText(const Prediction& prediction, int draw,
 // Where the uncertainty of a single run comes from.
 std::string SharesText(const PredictedNumber& number, bool many_draws) {
   if (!many_draws) {
-    return std::isfinite(number.run_sd) ? "all of it the scatter of a single run" : "one run";
+    return std::isfinite(number.run_sd) ? "all of it the scatter of a single run"
+                                        : "of one run: how far others lie is not known";
   }
   if (!std::isfinite(number.run_sd)) {
     return "parameters and the scatter of a run are not told apart: no set was run twice";
@@ -98,9 +99,11 @@ std::string MeasuredText(const Prediction& prediction, const PredictedNumber& nu
                          const std::vector<journal::ParameterRecord>& parameters) {
   const MeasuredThere& m = *number.measured;
   const TitleAndUnit shown(number.name);
-  std::string text = "    measured " + shown.Text(m.value) + " ± " + shown.Text(m.standard_error) +
-                     shown.Unit() + ": " + (m.is_inside ? "inside" : "outside") + " of " +
-                     shown.Text(m.low) + " … " + shown.Text(m.high) + ", its error counted";
+  std::string text =
+      "    measured " + shown.Text(m.value) + " ± " + shown.Text(m.standard_error) + shown.Unit();
+  if (!std::isfinite(m.low)) return text + "; one run does not tell how far others lie from it\n";
+  text += std::string(": ") + (m.is_inside ? "inside" : "outside") + " of " + shown.Text(m.low) +
+          " … " + shown.Text(m.high) + ", its error counted";
   if (m.is_inside) return text + "\n";
   return text + (m.nearest_is_inside
                      ? "; yet " + SetText(prediction, m.nearest_draw, parameters) +
@@ -159,8 +162,9 @@ std::string NumberTitle(const PredictedNumber& number) { return TitleAndUnit(num
 
 std::string NumberText(const PredictedNumber& number) {
   const TitleAndUnit shown(number.name);
-  return shown.Text(number.mean) + shown.Unit() + ", 90 % of runs in " + shown.Text(number.low) +
-         " … " + shown.Text(number.high);
+  const std::string text = shown.Text(number.mean) + shown.Unit();
+  if (!std::isfinite(number.low)) return text;
+  return text + ", 90 % of runs in " + shown.Text(number.low) + " … " + shown.Text(number.high);
 }
 
 std::string SilentText(const PredictedNumber& number) {

@@ -16,10 +16,6 @@ double StudentOverNormal(double freedom) {
   return 1 + (kNinety * kNinety + 1) / (4 * std::max(freedom, 1.0));
 }
 
-// A surrogate's hyper-parameters are estimates, from few runs: with 1.5 the 90 % intervals of 400
-// made-up processes held the next run in 88 %, with 1.75 in 90 %, with 2 in 91 % (predict_test).
-constexpr double kOverconfidence = 1.75;
-
 // What differs by rounding alone does not differ.
 double Rounded(double sd, double mean) { return sd > 1e-12 * std::abs(mean) ? sd : 0; }
 
@@ -63,8 +59,11 @@ Spread::Spread(const DrawValues& values, const rigs::Bounds& bounds) : bounds_(b
   const double wide = parameters_sd_ * std::sqrt(1 + squares) * StudentOverNormal(draw_freedom);
   const double drawn_in = between > 0 ? wide / std::sqrt(between) : 0;
   for (double& centre : centre_) centre = mean_ + drawn_in * (centre - mean_);
-  kernel_.assign(centre_.size(), std::sqrt(run_variance * (1 + 1 / num_runs)) *
-                                     StudentOverNormal(std::max(run_freedom, 1.0)));
+  const double run = std::sqrt(run_variance) * StudentOverNormal(run_freedom);
+  kernel_.assign(centre_.size(), run * std::sqrt(1 + 1 / num_runs));
+  error_.assign(centre_.size(), run * std::sqrt(1 / num_runs));
+  is_one_run_ = num_runs < 2;
+  if (is_one_run_) parameters_sd_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 Spread::Spread(const surrogate::Predictions& sets, double run_sd, const rigs::Bounds& bounds)
@@ -77,8 +76,15 @@ Spread::Spread(const surrogate::Predictions& sets, double run_sd, const rigs::Bo
               1.0 / static_cast<double>(sets.mean.size())),
       centre_(sets.mean.begin(), sets.mean.end()) {
   for (const double variance : sets.variance) {
-    kernel_.push_back(std::hypot(kOverconfidence * std::sqrt(variance), run_sd));
+    error_.push_back(kOverconfidence * std::sqrt(variance));
+    kernel_.push_back(std::hypot(error_.back(), run_sd));
   }
+}
+
+Spread Spread::OfMeans() const {
+  Spread means = *this;
+  means.kernel_ = error_;
+  return means;
 }
 
 double Spread::ParametersShare() const {
@@ -97,6 +103,8 @@ double Spread::Below(double value, double error_sd) const {
 }
 
 Range Spread::Ninety(double error_sd) const {
+  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+  if (is_one_run_) return {.low = kNotKnown, .high = kNotKnown};
   const auto within = [&](double quantile, double beyond) {
     return std::clamp(quantile, bounds_.low + beyond, bounds_.high + beyond);
   };

@@ -124,12 +124,16 @@ void AddHandling(const rigs::Case& c, std::vector<Move>& moves) {
                          },
                      .placeholders = {"lift_velocity", "lifted_time", "end_time"}});
   }
-  const bool dense = c.filling.kind == rigs::FillingKind::kDense;
-  const auto other = dense ? rigs::FillingKind::kPour : rigs::FillingKind::kDense;
+  // In each experiment the other one than its own.
+  const auto other = [](rigs::FillingKind kind) {
+    return kind == rigs::FillingKind::kDense ? rigs::FillingKind::kPour : rigs::FillingKind::kDense;
+  };
   moves.push_back({.name = "filling",
                    .from = std::string(base::NameOf(c.filling.kind)),
-                   .to = std::string(base::NameOf(other)),
-                   .apply = [other](rigs::Case& moved) { moved.filling = {.kind = other}; }});
+                   .to = std::string(base::NameOf(other(c.filling.kind))),
+                   .apply = [other](rigs::Case& moved) {
+                     moved.filling = {.kind = other(moved.filling.kind)};
+                   }});
 }
 
 // The other of two choices of a contact law.
@@ -194,6 +198,19 @@ std::vector<Move> UsualMoves(const campaign::JointView& view, const rigs::Case& 
   AddPowder(view, c, moves);
   AddHandling(c, moves);
   AddLaws(c, moves);
+  return moves;
+}
+
+std::vector<Move> UsualMoves(const campaign::JointView& view,
+                             const std::vector<rigs::Case>& experiments) {
+  std::vector<Move> moves;
+  for (const rigs::Case& c : experiments) {
+    for (Move& move : UsualMoves(view, c)) {
+      if (std::ranges::find(moves, move.name, &Move::name) == moves.end()) {
+        moves.push_back(std::move(move));
+      }
+    }
+  }
   return moves;
 }
 

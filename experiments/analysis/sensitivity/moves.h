@@ -21,8 +21,12 @@ struct Move {
 
 // The usual ones: restitution, rolling damping, Young's modulus, the pairs of powder with plate and
 // tube, the width of the sizes, mass, lift velocity, filling and options of the contact laws; each
-// where it acts in `rig_case`, the first experiment's, and is not searched.
+// where it acts in `rig_case` and is not searched.
 std::vector<Move> UsualMoves(const campaign::JointView& view, const rigs::Case& rig_case);
+
+// Those of any of the experiments; of moves of one name the first.
+std::vector<Move> UsualMoves(const campaign::JointView& view,
+                             const std::vector<rigs::Case>& experiments);
 
 // A parameter to a value of the user's, "restitution" and "0.6"; throws ConfigError where it is
 // none, is searched, has that value or cannot have it.

@@ -55,7 +55,7 @@ class Study {
                  .parts = options.parts},
         stated_(StatedAnswerOf(view.space, answer_)),
         follower_(setting_, stated_, options_),
-        moves_(MovesOf(view, options, MovedCase(setting_, {}, view.Answered().front(), 0))),
+        moves_(MovesOf(view, options, setting_)),
         tallies_(moves_.size()) {}
 
   SensitivityTable Run() {
@@ -95,11 +95,13 @@ class Study {
   }
 
   static std::vector<Move> MovesOf(const JointView& view, const SensitivityOptions& options,
-                                   const rigs::Case& rig_case) {
-    if (options.moves.empty()) return UsualMoves(view, rig_case);
+                                   const SensitivitySetting& setting) {
+    std::vector<rigs::Case> experiments;
+    for (const int e : view.Answered()) experiments.push_back(MovedCase(setting, {}, e, 0));
+    if (options.moves.empty()) return UsualMoves(view, experiments);
     std::vector<Move> moves;
     for (const auto& [name, value] : options.moves) {
-      moves.push_back(MoveTo(view, rig_case, name, value));
+      moves.push_back(MoveTo(view, experiments.front(), name, value));
     }
     return moves;
   }

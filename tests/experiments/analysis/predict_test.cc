@@ -281,8 +281,8 @@ TEST_F(PredictTest, OneRunOfOneSetIsNoPrediction) {
            .set = {{"sliding_friction", "0.4"}, {"rolling_friction", "0.2"}},
            .measured = Write("off.json", R"({"tapped_density": {"value": 1300, "sd": 1}})")});
   const std::string text = PredictionText(p, view_->record.parameters);
-  EXPECT_THAT(text, HasSubstr("this set does not give it"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("any set that fits")));
+  EXPECT_THAT(text, HasSubstr("one run does not tell how far others lie"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("90 %")));
 }
 
 // Six draws once each: the surrogate's noise is its prior's then.

@@ -50,12 +50,6 @@ TEST(Spread, RoundingIsNoScatter) {
   EXPECT_TRUE(std::isnan(spread.ParametersShare()));
 }
 
-TEST(Spread, OneValueAloneIsItsOwnRange) {
-  const Spread spread({.runs = {{5}}, .weight = {1}});
-  EXPECT_EQ(spread.Ninety().low, 5);
-  EXPECT_TRUE(std::isnan(spread.ParametersShare()));
-}
-
 // A run whose number is not defined is null in prediction.json; the next command reads it back.
 TEST(PredictedNumber, WithARunThatHasNoneIsReadAsItWasWritten) {
   PredictedNumber number{.name = "angle_deg"};
@@ -83,6 +77,26 @@ TEST(Spread, ARangeEndsWhereTheNumberDoes) {
   const DrawValues fallen{.runs = {{0, 0, 3e-6}, {0, 1e-6, 0}}, .weight = {0.5, 0.5}};
   EXPECT_LT(Spread(fallen).Ninety().low, 0);
   EXPECT_EQ(Spread(fallen, rigs::BoundsOf("mass_fallen_kg")).Ninety().low, 0);
+}
+
+TEST(Spread, OfOneRunHasNoWidth) {
+  const Spread one({.runs = {{0.7}, {}}, .weight = {0.5, 0.5}});
+  EXPECT_EQ(one.mean(), 0.7);
+  EXPECT_TRUE(std::isnan(one.Ninety().low));
+  EXPECT_TRUE(std::isnan(one.Ninety(0.1).high));
+  EXPECT_TRUE(std::isnan(one.ParametersShare()));
+  EXPECT_TRUE(std::isfinite(Spread({.runs = {{0.7}, {0.6}}, .weight = {0.5, 0.5}}).Ninety().low));
+}
+
+// Four runs of one set that scatter by 2: a mean of many lies within 2/√4 of theirs, a single one
+// within √5 times as much.
+TEST(Spread, OfMeansIsWithoutTheScatterOfRuns) {
+  const double far = 2 * std::sqrt(3.0) / 2;
+  const Spread spread({.runs = {{10 - far, 10 - far, 10 + far, 10 + far}}, .weight = {1}});
+  EXPECT_NEAR(spread.run_sd(), 2, 1e-12);
+  const Range single = spread.Ninety(), means = spread.OfMeans().Ninety();
+  EXPECT_NEAR((single.high - 10) / (means.high - 10), std::sqrt(5.0), 1e-6);
+  EXPECT_NEAR(spread.OfMeans().Ninety(100).high - 10, 1.645 * 100, 0.2);  // the measurement's own
 }
 
 TEST(Bounds, AreInTheUnitOfResults) {

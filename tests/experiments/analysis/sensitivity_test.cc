@@ -160,6 +160,16 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   const auto is_mass = [](const analysis::Move& move) { return move.name == "mass"; };
   EXPECT_TRUE(std::ranges::any_of(UsualMoves(view, typical), is_mass));
   EXPECT_FALSE(std::ranges::any_of(UsualMoves(weighed, typical), is_mass));
+  // A second experiment's own handling is moved, too, each to what it is not.
+  rigs::Case tapped = typical;
+  tapped.rig.kind = rigs::RigKind::kFunnelHeap;
+  tapped.filling.kind = rigs::FillingKind::kPour;
+  const auto of_both = UsualMoves(view, std::vector<rigs::Case>{tapped, typical});
+  EXPECT_EQ(std::ranges::count(of_both, "lift_velocity", &analysis::Move::name), 1);
+  EXPECT_EQ(std::ranges::count(of_both, "filling", &analysis::Move::name), 1);
+  rigs::Case moved = typical;
+  std::ranges::find(of_both, "filling", &analysis::Move::name)->apply(moved);
+  EXPECT_NE(moved.filling.kind, typical.filling.kind);
   EXPECT_EQ(MoveTo(view, typical, "mass", "0.6 g").from, "0.0005 kg");
   EXPECT_EQ(MoveTo(view, typical, "particle_size", "1.1").from, "1");
   EXPECT_THAT(ErrorOf(view, "rolling_friction", "0.2"), HasSubstr("is searched"));

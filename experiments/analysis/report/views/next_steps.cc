@@ -10,6 +10,7 @@
 #include "base/text/shell_text.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/views/width_views.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -68,7 +69,7 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
     then.credible_low = other.range.ToNative(range.low);
     then.credible_high = other.range.ToNative(range.high);
     const double share = std::min(1.0, WidthOf(then) / WidthOf(now));
-    step.remaining *= share;
+    if (!now.nuisance) step.remaining *= share;
     step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol;
     step.leaves += share < kNoNarrower ? " in " + RangeText(then) + " (now " + RangeText(now) + ")"
                                        : " as it is";
@@ -99,7 +100,7 @@ NextStep MoreRuns(const Evidence& evidence) {
 // The experiment's own error falls with the root of its runs; no range can fall faster.
 void AddRepeating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const double factor = std::sqrt(0.5);
-  const auto dimension = static_cast<double>(evidence.parameters.size());
+  const auto dimension = static_cast<double>(campaign::AskedParameters(*evidence.answer).size());
   NextStep step = MoreRuns(evidence);
   step.leaves = "ranges at best " + base::ShortNumber(factor, 2) +
                 " times as wide as now, where the measurements' scatter sets them";

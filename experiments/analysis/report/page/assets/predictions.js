@@ -1,12 +1,13 @@
 // What `talus predict` has found: a line each on the first screen, and a section with all of it.
-const predictedRange = (n) => formatUnit(n.mean, n.unit) + ", 90\u00a0% of runs in " + format(n.low) + " to " +
-  formatUnit(n.high, n.unit) + (n.silent ? ", " + n.silent : "");
+const predictedRange = (n) => formatUnit(n.mean, n.unit) + (n.low === null
+  ? ", of one run" : ", 90\u00a0% of runs in " + format(n.low) + " to " +
+  formatUnit(n.high, n.unit)) + (n.silent ? ", " + n.silent : "");
 
 const shareText = (n) => n.parameters_share === null ? "" : "; " + percent(n.parameters_share) +
   " of the variance from the parameters";
 
 const measuredThere = (n) => n.measured === null ? "–" : formatUnit(n.measured.value, n.unit) + " ± " +
-  format(n.measured.error, 2) + ": " + (n.measured.inside ? "inside" : n.measured.another_inside
+  format(n.measured.error, 2) + ": " + (n.low === null ? "one run does not tell" : n.measured.inside ? "inside" : n.measured.another_inside
     ? "outside, yet a draw gives it" : "outside, and no draw gives it");
 
 // By what a number is told, with what either misses of draws that were left out.
