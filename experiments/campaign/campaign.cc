@@ -108,7 +108,7 @@ bool Campaign::IsGoalDue() const {
     ended += IsOfSearch(trial) && trial.status != journal::TrialStatus::kRunning;
     searches |= trial.kind == journal::TrialKind::kSearch;
   }
-  return searches && ended >= NextLook(planner_.goal() ? planner_.goal()->after : 0);
+  return searches && ended >= NextLook(planner_.goal(), spec_);
 }
 
 bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
