@@ -43,6 +43,9 @@ void Campaign::NoteProgress() {
 }
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
+  // One that had ended before keeps its state and its result.
+  const bool asked = interrupt != base::Interrupt::kNone;
+  if (asked && journal_.Progress().state == "finished") return CampaignEnd::kInterrupted;
   for (const EndedTrial& ended : ended_) journal_.NoteEnd(ended.trial);
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   journal::ProgressRecord progress{

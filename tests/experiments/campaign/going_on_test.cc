@@ -1,0 +1,56 @@
+// What becomes of a campaign that is gone on with after it has ended or was ended.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "tests/error_in.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::campaign {
+namespace going_on_test {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kSmall = R"(, "budget": {"simulations": 10}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 1, "replicates": 2})";
+
+class GoingOnTest : public CampaignFixture {
+ protected:
+  static journal::ProgressRecord Progress(const fs::path& folder) {
+    return journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress();
+  }
+  static CampaignSpec SpecOf(const fs::path& folder) {
+    return ParseSpecText(
+        journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json);
+  }
+  static int NumSearch(const fs::path& folder) {
+    return static_cast<int>(std::ranges::count_if(Trials(folder), IsOfSearch));
+  }
+};
+
+TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
+  const fs::path folder = Finished(kSmall);
+  const journal::ProgressRecord before = Progress(folder);
+  {
+    const base::InterruptGuard interrupt;
+    Console console(folder / "campaign.log", Console::Output::kQuiet);
+    OpenedCampaign opened = OpenCampaign(folder, {}, console);
+    CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),
+                        .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
+                      std::move(parts), console);
+    std::raise(SIGINT);
+    EXPECT_EQ(campaign.Run(interrupt), CampaignEnd::kInterrupted);
+  }
+  EXPECT_EQ(Progress(folder).state, "finished");
+  EXPECT_EQ(Progress(folder).stop_reason, before.stop_reason);
+  EXPECT_EQ(Progress(folder).result_json, before.result_json);
+}
+
+}  // namespace going_on_test
+}  // namespace talus::campaign
