@@ -33,6 +33,7 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   with.experiments->push_back(experiment);
   with.budget.simulations = 0;
   with.budget.min_simulations = 0;
+  with.budget.wall_clock.reset();
   return with;
 }
 

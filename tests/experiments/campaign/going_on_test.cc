@@ -52,5 +52,29 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
 }
 
+// As many were added to a budget that had run out, and none was simulated.
+TEST_F(GoingOnTest, WhatAWallClockHasEndedGoesOnWithSoManyMore) {
+  const fs::path folder =
+      Begin(R"(, "budget": {"simulations": 10, "wall_clock": "1 h"}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
+  journal::Journal::Open(journal::JournalPath(folder))
+      .SetProgress({.state = "interrupted", .elapsed_s = 7200});
+  RunFake(folder, {});
+  EXPECT_THAT(Progress(folder).stop_reason, HasSubstr("1 h"));
+  EXPECT_EQ(NumSearch(folder), 0);
+  RunFake(folder, {}, {.add_simulations = 3});
+  EXPECT_EQ(NumSearch(folder), 3);
+}
+
+TEST_F(GoingOnTest, ABudgetOfCoreTimeThatIsNotUsedGrowsByWhatSoManyTake) {
+  const fs::path folder = Begin(R"(, "budget": {"core_time": "1 h"}, "workers": 1)");
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  const CampaignSpec more = OpenCampaign(folder, {.add_simulations = 5}, console).spec;
+  EXPECT_GT(more.budget.core_time.value(), 3600);
+  EXPECT_EQ(more.budget.simulations, 0);
+  const CampaignSpec again = OpenCampaign(folder, {.add_simulations = 5}, console).spec;
+  EXPECT_NEAR(*again.budget.core_time - 3600, 2 * (*more.budget.core_time - 3600), 1e-6);
+}
+
 }  // namespace going_on_test
 }  // namespace talus::campaign
