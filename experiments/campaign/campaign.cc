@@ -224,6 +224,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
   if (stale_.erase(trial.id) > 0) {  // however it has ended, it was the former engine's
+    parts_.runner->Forget(JobOf(trial));
     ++reruns_[trial.id];
     waiting_.push_back(std::move(trial));
     NoteFormerEngineGone();

@@ -25,6 +25,7 @@ void Campaign::RunFailedAgain() {
                 base::Counted(static_cast<long long>(trials.size()), "trial") +
                 " failed (the last: " + trials.back().reason + "): run again");
   for (const journal::TrialRecord& trial : trials) {
+    parts_.runner->Forget(JobOf(trial));
     std::filesystem::remove_all(folder_.trial(trial.id));
     ++reruns_[trial.id];
   }
