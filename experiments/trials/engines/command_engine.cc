@@ -301,6 +301,11 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
   base::WriteFileAtomically(folder / kCommandFile, base::JsonText(command), Outlives::kProgram);
 }
 
+bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
+  return HoldsKey(folder, "case.json", CaseText({.heap = rig_case, .engine = options_})) &&
+         HasPrepared(folder);
+}
+
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   // The mark tells a result that is whole from one that a kill has left half written. What the
   // command took is put into it, where there is room.

@@ -19,6 +19,7 @@ class CommandEngine : public TrialEngine {
   explicit CommandEngine(const CommandOptions& options);
 
   void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   // Whether a command has been prepared there.
   static bool HasPrepared(const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "experiments/campaign/run_cases.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -32,6 +33,62 @@ class GoingOnTest : public CampaignFixture {
     return static_cast<int>(std::ranges::count_if(Trials(folder), IsOfSearch));
   }
 };
+
+// A queue that has each job already, or has none and takes it; all end at once, in the same way.
+class StubQueue : public runners::Runner {
+ public:
+  StubQueue(bool has_it, runners::JobEnd end) : has_it_(has_it), end_(end) {}
+  int Capacity() const override { return 1; }
+  bool JobsOutliveUs() const override { return true; }
+  std::vector<std::string> Submit(std::span<const runners::Job> jobs) override {
+    log_ += "submit ";
+    ids_.push_back(jobs[0].id);
+    return {"7_0"};
+  }
+  bool Adopt(const runners::Job& job, const std::string&) override {
+    log_ += "adopt ";
+    if (has_it_) ids_.push_back(job.id);
+    return has_it_;
+  }
+  void Forget(const runners::Job&) override { log_ += "forget "; }
+  std::vector<runners::FinishedJob> Wait(double) override {
+    std::vector<runners::FinishedJob> finished;
+    for (const std::int64_t id : std::exchange(ids_, {})) {
+      finished.push_back({.id = id, .end = end_, .reason = "sbatch: no such partition"});
+    }
+    return finished;
+  }
+  void Cancel(std::int64_t) override {}
+  const std::string& log() const { return log_; }
+
+ private:
+  bool has_it_;
+  runners::JobEnd end_;
+  std::vector<std::int64_t> ids_;
+  std::string log_;
+};
+
+class RunCasesTest : public GoingOnTest {
+ protected:
+  // What the queue was asked for one run, whose folder an earlier process may have made ready.
+  std::string LogOf(bool has_it, runners::JobEnd end = runners::JobEnd::kExit) {
+    const FolderCase run{.folder = scratch_.path() / "0001", .rig_case = {}};
+    auto queue = std::make_unique<StubQueue>(has_it, end);
+    const StubQueue& asked = *queue;
+    const CampaignParts parts{.runner = std::move(queue),
+                              .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    RunCases({.count = 1, .at = [&](std::size_t) { return run; }, .time_cap = 60}, parts);
+    return asked.log();
+  }
+};
+
+// Killed before it had noted the job's name, it submitted the job once more. One that has ended
+// without a result is simulated again.
+TEST_F(RunCasesTest, WhatAQueueHasAlreadyIsNotSubmittedTwice) {
+  EXPECT_EQ(LogOf(false), "submit forget ");  // nobody has made the folder ready
+  EXPECT_EQ(LogOf(true), "adopt forget ");
+  EXPECT_EQ(LogOf(false), "adopt submit forget ");
+}
 
 TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   const fs::path folder = Finished(kSmall);
