@@ -2,8 +2,10 @@
 
 #include <string>
 
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
+#include "experiments/campaign/record/trial_end.h"
 
 namespace talus::campaign {
 namespace {
@@ -64,6 +66,10 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       // The same call later simulates what has left no result.
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
+      if (job.end == runners::JobEnd::kNotStarted) {  // so would be every other
+        throw base::Error(folder.string() + ": could not be started: " + FailureText(job, folder) +
+                          "; mend this, and the same command goes on");
+      }
       runs.has_ended(index);
       --running;
     }

@@ -90,6 +90,12 @@ TEST_F(RunCasesTest, WhatAQueueHasAlreadyIsNotSubmittedTwice) {
   EXPECT_EQ(LogOf(false), "adopt submit forget ");
 }
 
+// `talus predict` said that it had left no result.
+TEST_F(RunCasesTest, WhatAQueueRefusesIsSaid) {
+  const auto refused = [&] { LogOf(false, runners::JobEnd::kNotStarted); };
+  EXPECT_THAT(ErrorIn<base::Error>(refused), HasSubstr("sbatch: no such partition"));
+}
+
 TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   const fs::path folder = Finished(kSmall);
   const journal::ProgressRecord before = Progress(folder);
