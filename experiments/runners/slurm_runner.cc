@@ -348,6 +348,16 @@ int SlurmRunner::NumWaiting() const {
       std::ranges::count_if(tasks_, [](const auto& t) { return !t.second.begun; }));
 }
 
+int SlurmRunner::NumInQueue() {
+  const auto may_run = [](const auto& task) {
+    return !task.second.ended && !EndOf(task.second.job, task.second.batch, task.second.index);
+  };
+  if (std::ranges::none_of(tasks_, may_run)) return 0;
+  Poll();
+  if (!silence_.empty()) throw base::Error("squeue does not say how the jobs are: " + silence_);
+  return static_cast<int>(std::ranges::count_if(tasks_, may_run));
+}
+
 std::vector<std::int64_t> SlurmRunner::TakeBackUnsent() {
   std::vector<std::int64_t> unsent;
   for (const auto& [id, task] : tasks_) {

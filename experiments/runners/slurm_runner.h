@@ -37,6 +37,10 @@ class SlurmRunner : public Runner {
   int NumWaiting() const override;
   std::vector<std::int64_t> TakeBackUnsent() override;
 
+  // Unfinished jobs that wait or run in the queue, as it says now. Throws base::Error when it does
+  // not answer.
+  int NumInQueue();
+
  private:
   using Clock = std::chrono::steady_clock;
 

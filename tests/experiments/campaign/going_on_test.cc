@@ -10,6 +10,7 @@
 #include "experiments/campaign/run_cases.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/slurm_fixture.h"
 
 namespace talus::campaign {
 namespace going_on_test {
@@ -113,6 +114,25 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   EXPECT_EQ(Progress(folder).state, "finished");
   EXPECT_EQ(Progress(folder).stop_reason, before.stop_reason);
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
+}
+
+// Two processes would have written into one folder.
+class ToLocalTest : public runners::SlurmRunnerTest {};
+
+TEST_F(ToLocalTest, JobsThatAreStillInTheQueueAreNotRunHereAsWell) {
+  const fs::path folder = root_ / "run";
+  BeginCampaign(WriteFakeSpec(root_ / "run_in", kSmall), folder);
+  EXPECT_THROW(RunFake(folder, {.no_command = true}), base::Error);  // leaves the first one running
+  Put("hold", "");
+  const runners::Job job{.id = 1, .folder = folder / "trials/0001", .command = {"true"}};
+  runners::SlurmRunner(options_, folder).Submit({&job, 1});
+  Put("queue", "101_0|RUNNING|None\n");
+  EXPECT_THAT(ErrorIn([&] { RunFake(folder, {}); }), HasSubstr("1 job of this campaign may still"));
+  Put("queue_is_down", "");
+  EXPECT_THAT(ErrorIn<base::Error>([&] { RunFake(folder, {}); }), HasSubstr("squeue does not say"));
+  fs::remove(root_ / "queue_is_down");
+  Put("queue", "101_0|CANCELLED|None\n");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
 }
 
 // As many were added to a budget that had run out, and none was simulated.
