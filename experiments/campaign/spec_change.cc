@@ -70,7 +70,8 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
                           const ResumeOptions& options) {
   const bool named = !options.spec.empty();
   const fs::path path = named ? options.spec : fs::path(record.spec_path);
-  SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
+  SpecChange change{.spec = {}, .path = {}, .text = record.spec_text, .event = {}, .words = {}};
+  if (named) change.path = fs::absolute(path).lexically_normal().string();
   if (named || fs::exists(path)) change.text = base::ReadFile(path);
   if (change.text == record.spec_text) {
     change.spec = ParseSpecText(record.spec_json);

@@ -23,8 +23,9 @@ struct ResumeOptions {
 // A change of the campaign, to be written when nothing is left that could refuse it.
 struct SpecChange {
   CampaignSpec spec;
-  std::string text;   // as the user wrote it
-  std::string event;  // its kind; empty when nothing changes
+  std::string path{};  // of a file that was named, absolute; empty: the one it began with
+  std::string text;    // as the user wrote it
+  std::string event;   // its kind; empty when nothing changes
   std::string words;
   bool engine_is_new = false;  // a mended one, with which no trial has been run
 

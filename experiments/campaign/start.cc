@@ -150,6 +150,16 @@ std::vector<journal::ExperimentRecord> MeasuredExperiments(const CampaignSpec& s
   return records;
 }
 
+// The folder first: a journal that is made anew from it is to know of the change as well.
+void WriteSpec(const CampaignFolder& folder, const SpecChange& change, journal::Journal& journal) {
+  journal::CampaignRecord record = journal.Campaign();
+  if (!change.path.empty()) record.spec_path = change.path;
+  record.spec_text = change.text;
+  record.spec_json = SpecText(change.spec);
+  KeepCampaign(folder, record);
+  journal.SetSpec(record);
+}
+
 }  // namespace
 
 std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
@@ -246,9 +256,8 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (change.SearchesOn() || options.objective) Reopen(journal);
   if (!options.search.empty()) {
     WriteAddedParameters(folder, change.spec, change.text, journal);
-  } else if (!change.event.empty()) {
-    journal.SetSpec(change.text, SpecText(change.spec));
   }
+  if (!change.event.empty() || !change.path.empty()) WriteSpec(folder, change, journal);
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }

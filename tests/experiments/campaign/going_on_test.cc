@@ -116,6 +116,29 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
 }
 
+// The next resume read the first one again, and undid what the other had changed.
+TEST_F(GoingOnTest, AnotherSpecThatIsNamedOnceIsReadFromThenOn) {
+  const fs::path folder = Begin(kSmall);
+  const fs::path former = scratch_.path() / "run_in" / "spec.json";
+  std::string text = base::ReadFile(former);
+  text.replace(text.find("\"simulations\": 10"), 17, "\"simulations\": 11");
+  const fs::path other = scratch_.path() / "run_in" / "other.json";
+  std::ofstream(other) << text;
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  EXPECT_EQ(OpenCampaign(folder, {.spec = other}, console).spec.budget.simulations, 11);
+  EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 11);
+  const auto record = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign();
+  EXPECT_EQ(record.spec_path, other);
+}
+
+TEST_F(GoingOnTest, AnExtensionIsStillThereInAJournalThatIsMadeAnew) {
+  const fs::path folder = Begin(kSmall);
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  EXPECT_EQ(OpenCampaign(folder, {.add_simulations = 5}, console).spec.budget.simulations, 15);
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 15);
+}
+
 // Two processes would have written into one folder.
 class ToLocalTest : public runners::SlurmRunnerTest {};
 
