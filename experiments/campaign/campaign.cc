@@ -144,8 +144,9 @@ bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
     if (NumBegun() > 0) return submitted;
     if (!LookAtGoal(interrupt)) return true;  // it is to end
   }
-  Begin(planner_.Next(room));
-  NoteStop();
+  std::vector<journal::TrialRecord> planned = planner_.Next(room);
+  NoteStop(planned);
+  Begin(std::move(planned));
   return SubmitWaiting() || submitted;
 }
 

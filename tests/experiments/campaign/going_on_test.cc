@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/campaign/run_cases.h"
+#include "experiments/journal/record_json.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/slurm_fixture.h"
@@ -137,6 +138,28 @@ TEST_F(GoingOnTest, AnExtensionIsStillThereInAJournalThatIsMadeAnew) {
   EXPECT_EQ(OpenCampaign(folder, {.add_simulations = 5}, console).spec.budget.simulations, 15);
   fs::remove(journal::JournalPath(folder));
   EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 15);
+}
+
+// Its last trials counted by an estimate; where they took less, the budget had room again, and what
+// had been confirmed was confirmed anew after them.
+TEST_F(GoingOnTest, ASearchThatIsBeingConfirmedDoesNotGoOnByItself) {
+  const fs::path folder = Begin(R"(, "budget": {"core_time": "1 ms"}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 1, "replicates": 2})");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const std::size_t num_trials = Trials(folder).size();
+  const Stop stop = journal::ParseRecord<Stop>(Progress(folder).stop_json, "stop");
+  EXPECT_EQ(stop.kind, StopKind::kCoreTime);
+  {  // as if it had been killed before its end, and its trials had taken less
+    auto journal = journal::Journal::Open(journal::JournalPath(folder));
+    journal::CampaignRecord record = journal.Campaign();
+    CampaignSpec spec = SpecOf(folder);
+    spec.budget.core_time = 3600;
+    record.spec_json = SpecText(spec);
+    journal.SetSpec(record);
+    journal.SetProgress({.state = "running", .stop_json = Progress(folder).stop_json});
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(Trials(folder).size(), num_trials);
 }
 
 // Two processes would have written into one folder.
