@@ -235,11 +235,11 @@ void SlurmRunner::CollectEndFiles() {
 }
 
 void SlurmRunner::Poll() {
-  std::set<std::string> arrays;
+  std::set<std::pair<std::string, int>> asked;
   for (const auto& [id, task] : tasks_) {
-    if (!task.array.empty()) arrays.insert(task.array);
+    if (!task.array.empty()) asked.emplace(task.array, task.index);
   }
-  const StatesReply reply = queue_.States(arrays);
+  const StatesReply reply = queue_.States(asked);
   silence_ = reply.error;
   if (!reply.states) return;  // Slurm does not answer; the jobs go on without us
   for (auto& [id, task] : tasks_) {
