@@ -231,8 +231,8 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
     NoteFormerEngineGone();
     return;
   }
-  if (job.duration > 0) trial.duration_s = job.duration;
-  if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
+  if (job.duration > 0) trial.duration_s += job.duration;  // with its earlier attempts
+  if (job.cpu_time > 0) trial.cpu_s += job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;
   if (job.end ==
       runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
@@ -251,6 +251,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
 bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job) {
   if (++reruns_[trial.id] > kMostReruns) return false;
   journal_.AddEvent("rerun", trial.id, job.reason);
+  journal_.Restart({&trial, 1});
   console_.Line("trial " + std::to_string(trial.id) + " " + job.reason + "; it is run again");
   waiting_.push_back(trial);
   return true;

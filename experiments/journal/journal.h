@@ -55,7 +55,7 @@ class Journal {
   // power cut ends the trials too.
   void Start(std::span<const TrialRecord> trials,
              base::Outlives outlives = base::Outlives::kPowerCut);
-  // Running trials get another seed, attempt or job name.
+  // Running trials get another seed, attempt or job name; with what they have taken so far.
   void Restart(std::span<const TrialRecord> trials);
   // Failed trials are as if they had never ended.
   void Reopen(std::span<const TrialRecord> trials);

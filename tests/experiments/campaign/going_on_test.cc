@@ -162,6 +162,15 @@ TEST_F(GoingOnTest, ASearchThatIsBeingConfirmedDoesNotGoOnByItself) {
   EXPECT_EQ(Trials(folder).size(), num_trials);
 }
 
+// A budget of core time counted the last attempt only.
+TEST_F(GoingOnTest, ATrialHasTakenWhatAllItsAttemptsTook) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 1}, "workers": 1,
+    "retry_failed": true, "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
+  RunFake(folder, {.fail_once = true, .sleep = 0.2});
+  EXPECT_EQ(Trials(folder).at(0).attempts, 2);
+  EXPECT_GE(Trials(folder).at(0).duration_s, 0.4);
+}
+
 // Two processes would have written into one folder.
 class ToLocalTest : public runners::SlurmRunnerTest {};
 
