@@ -94,9 +94,25 @@ journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   return RebuildJournal(folder);
 }
 
+constexpr const char* kLock = "campaign.lock";
+
 // What may be in a folder that a campaign begins in: what a process that was killed, or another
-// that begins now, has left there before the campaign itself.
-constexpr std::string_view kMayBeThere[] = {"campaign.lock", kCopiesFolder};
+// that begins now, has left there before the campaign itself. No image is without the lock,
+// which is there first: a user's own may have these names.
+bool HoldsOnlyBeginnings(const CampaignFolder& folder) {
+  constexpr std::string_view kCopies[] = {kCopiesFolder};
+  if (!fs::exists(folder.root / kLock)) return base::HoldsOnly(folder.root, kCopies);
+  for (const auto& entry : fs::directory_iterator(folder.root)) {
+    const std::string name = entry.path().filename();
+    const bool is_image =
+        name.ends_with(".png") && (name.starts_with("aehp") || name.starts_with("run_"));
+    const bool may_be_there = name == kLock || name == kCopiesFolder || is_image ||
+                              name.starts_with("experiment_") ||
+                              name.find(".tmp") != std::string::npos;
+    if (!may_be_there) return false;
+  }
+  return true;
+}
 
 void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
   if (fs::exists(journal::JournalPath(folder.root)) || fs::exists(folder.campaign())) {
@@ -104,7 +120,7 @@ void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
                             base::ShellWord(shown.string()) +
                             "` goes on with it, or name another folder with --out");
   }
-  if (base::HoldsOnly(folder.root, kMayBeThere)) return;
+  if (HoldsOnlyBeginnings(folder)) return;
   throw base::ConfigError(shown.string() +
                           ": holds other files, which the campaign's could overwrite; name a new "
                           "folder with --out");

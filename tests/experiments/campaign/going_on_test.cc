@@ -98,6 +98,20 @@ TEST_F(RunCasesTest, WhatAQueueRefusesIsSaid) {
   EXPECT_THAT(ErrorIn<base::Error>(refused), HasSubstr("sbatch: no such partition"));
 }
 
+// Killed after the images and before campaign.json: there was nothing to resume, and `calibrate`
+// refused the folder.
+TEST_F(GoingOnTest, ABeginningThatWasKilledIsBegunAgain) {
+  const fs::path folder = scratch_.path() / "run";
+  fs::create_directories(folder / "experiment_2");
+  for (const char* name : {"aehp.png", "run_01.png", "campaign.json.tmp7"}) {
+    std::ofstream(folder / name) << "x";
+  }
+  EXPECT_THAT(ErrorIn([&] { Begin(kSmall); }), HasSubstr("holds other files"));  // anybody's
+  std::ofstream(folder / "campaign.lock") << "";
+  Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+}
+
 TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   const fs::path folder = Finished(kSmall);
   const journal::ProgressRecord before = Progress(folder);
