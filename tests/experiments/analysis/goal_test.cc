@@ -97,7 +97,7 @@ TEST_F(GoalTest, ATestThatIsAddedAfterwardsIsSimulated) {
   std::ofstream(file) << campaign::TwoExperiments::FastLift("23 mg");
   {
     campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
-    campaign::AddExperiment(folder, file, {.core_time = 1}, console);
+    campaign::AddExperiment(folder, file, {.core_time = 0.3}, console);
   }
   EXPECT_FALSE(Last(folder)->reason.has_value());
   const campaign::CampaignSpec spec = campaign::ReadJointView(folder).spec;
@@ -105,7 +105,7 @@ TEST_F(GoalTest, ATestThatIsAddedAfterwardsIsSimulated) {
             std::min(campaign::NextLook(Last(folder)->after), Last(folder)->after + 16));
   campaign::CoreTime former(spec);
   EXPECT_NEAR(spec.budget.core_time.value(),
-              former.OfSearch(Trials(folder)) + Last(folder)->core_time + 1, 1e-9);
+              former.OfSearch(Trials(folder)) + Last(folder)->core_time + 0.3, 1e-9);
   EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
   EXPECT_GE(std::ranges::count(Trials(folder), 1, &journal::TrialRecord::experiment), 6);
 }

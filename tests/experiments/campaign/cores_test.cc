@@ -43,7 +43,9 @@ TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
 
 // The ranks that srun starts are no children of the job's script: it sees srun's own time only.
 TEST(Cores, RanksThatSlurmStartsCountAsLongAsTheyHadTheirCores) {
-  const journal::TrialRecord trial{.duration_s = 100, .cpu_s = 2};
+  journal::TrialRecord trial;
+  trial.duration_s = 100;
+  trial.cpu_s = 2;
   CampaignSpec spec = WithRanks(0, 64, 1);
   EXPECT_EQ(MeasuredCoreTime(trial, spec), 2);
   spec.runner.kind = RunnerKind::kSlurm;

@@ -2,8 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -56,7 +62,8 @@ class StubQueue : public runners::Runner {
   std::vector<runners::FinishedJob> Wait(double) override {
     std::vector<runners::FinishedJob> finished;
     for (const std::int64_t id : std::exchange(ids_, {})) {
-      finished.push_back({.id = id, .end = end_, .reason = "sbatch: no such partition"});
+      finished.push_back(
+          {.id = id, .end = end_, .reason = "sbatch: no such partition", .host = {}});
     }
     return finished;
   }
@@ -212,7 +219,7 @@ TEST_F(GoingOnTest, WhatAWallClockHasEndedGoesOnWithSoManyMore) {
   journal::Journal::Open(journal::JournalPath(folder))
       .SetProgress({.state = "interrupted", .elapsed_s = 7200});
   RunFake(folder, {});
-  EXPECT_THAT(Progress(folder).stop_reason, HasSubstr("1 h"));
+  EXPECT_THAT(Progress(folder).stop_reason, HasSubstr("the time budget of"));
   EXPECT_EQ(NumSearch(folder), 0);
   RunFake(folder, {}, {.add_simulations = 3});
   EXPECT_EQ(NumSearch(folder), 3);
