@@ -1,6 +1,8 @@
 #include "experiments/app/go_on.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -121,6 +123,23 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
   }
 }
 
+// What follows an answer by itself: where it fails the campaign has its answer all the same.
+void Afterwards(const std::string& verb, const std::function<void()>& run) {
+  const auto warn = [&](const std::string& error) {
+    std::cerr << "warning: `talus " << verb << "`, which follows the answer, failed: " << error
+              << std::endl;
+  };
+  try {
+    run();
+  } catch (const base::Interrupted&) {
+    throw;
+  } catch (const base::Error& error) {
+    warn(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    warn(error.what());
+  }
+}
+
 }  // namespace
 
 campaign::Console::Output TellOptions::output() const {
@@ -152,9 +171,10 @@ void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& op
   PrintAnswer(*ended.answer, folder, tell);
   // First, since a further test that depends on something unknown is worth less.
   if (ended.spec.budget.sensitivity_share > 0) {
-    FindSensitivityWithin(ended.spec.budget.sensitivity_share, folder, tell);
+    Afterwards("sensitivity",
+               [&] { FindSensitivityWithin(ended.spec.budget.sensitivity_share, folder, tell); });
   }
-  if (IsWorthAdvice(ended)) PrintAdvice(ended, folder, tell);
+  if (IsWorthAdvice(ended)) Afterwards("next", [&] { PrintAdvice(ended, folder, tell); });
 }
 
 }  // namespace talus::app

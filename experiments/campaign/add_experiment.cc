@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -32,6 +33,7 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   with.experiments->push_back(experiment);
   with.budget.simulations = 0;
   with.budget.min_simulations = 0;
+  with.budget.wall_clock.reset();
   return with;
 }
 
@@ -60,6 +62,10 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   SetDrumDiameters(spec);
   spec.budget.core_time =
       core_time.OfSearch(trials) + options.core_time.value_or(core_time.OfTold(trials));
+  // The runs of a goal count against the budget, too.
+  if (const auto goal = LastGoal(opened.folder.root, opened.spec)) {
+    *spec.budget.core_time += goal->core_time;
+  }
   base::Problems problems(file.string(), {});
   CheckSpec(spec, problems);
   problems.ThrowIfAny();

@@ -108,7 +108,7 @@ bool Campaign::IsGoalDue() const {
     ended += IsOfSearch(trial) && trial.status != journal::TrialStatus::kRunning;
     searches |= trial.kind == journal::TrialKind::kSearch;
   }
-  return searches && ended >= NextLook(planner_.goal() ? planner_.goal()->after : 0);
+  return searches && ended >= NextLook(planner_.goal(), spec_);
 }
 
 bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
@@ -144,8 +144,9 @@ bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
     if (NumBegun() > 0) return submitted;
     if (!LookAtGoal(interrupt)) return true;  // it is to end
   }
-  Begin(planner_.Next(room));
-  NoteStop();
+  std::vector<journal::TrialRecord> planned = planner_.Next(room);
+  NoteStop(planned);
+  Begin(std::move(planned));
   return SubmitWaiting() || submitted;
 }
 
@@ -224,13 +225,14 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
   if (stale_.erase(trial.id) > 0) {  // however it has ended, it was the former engine's
+    parts_.runner->Forget(JobOf(trial));
     ++reruns_[trial.id];
     waiting_.push_back(std::move(trial));
     NoteFormerEngineGone();
     return;
   }
-  if (job.duration > 0) trial.duration_s = job.duration;
-  if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
+  if (job.duration > 0) trial.duration_s += job.duration;  // with its earlier attempts
+  if (job.cpu_time > 0) trial.cpu_s += job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;
   if (job.end ==
       runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
@@ -249,6 +251,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
 bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job) {
   if (++reruns_[trial.id] > kMostReruns) return false;
   journal_.AddEvent("rerun", trial.id, job.reason);
+  journal_.Restart({&trial, 1});
   console_.Line("trial " + std::to_string(trial.id) + " " + job.reason + "; it is run again");
   waiting_.push_back(trial);
   return true;

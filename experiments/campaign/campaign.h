@@ -91,7 +91,7 @@ class Campaign {
   bool TellEnded();
   void Tell(EndedTrial& ended);
   void NoteElapsed();
-  void NoteStop();
+  void NoteStop(const std::vector<journal::TrialRecord>& planned);
   void NoteProgress();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);

@@ -5,12 +5,39 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/text/counted.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/plan/turns.h"
+#include "experiments/runners/slurm_runner.h"
 
 namespace talus::campaign {
+namespace {
+
+// Trials that a cluster's queue has would run a second time on this machine, in the same folders.
+void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& root,
+                       const std::vector<runners::Job>& jobs) {
+  const std::filesystem::path records = root / "slurm";
+  if (spec.runner.kind != RunnerKind::kLocal || !std::filesystem::exists(records)) return;
+  runners::SlurmRunner former(spec.runner.slurm, root);
+  int num_queued = 0;
+  try {
+    for (const runners::Job& job : jobs) former.Adopt(job, "");
+    num_queued = former.NumInQueue();
+  } catch (const base::Error& error) {
+    throw base::Error(std::string(error.what()) +
+                      "; its jobs must have ended before the trials run on this machine: resume "
+                      "where Slurm answers, or remove " +
+                      records.string() + " if you know that they have");
+  }
+  if (num_queued == 0) return;
+  throw base::ConfigError("runner: " + base::Counted(num_queued, "job") +
+                          " of this campaign may still run in Slurm's queue, and would run here a "
+                          "second time; end them with scancel, or resume with the former runner");
+}
+
+}  // namespace
 
 // The set-up was wrong, and whoever resumes has mended it: none of these trials tells of its set.
 // Folders first: a session that ends in between does all of it again.
@@ -25,6 +52,7 @@ void Campaign::RunFailedAgain() {
                 base::Counted(static_cast<long long>(trials.size()), "trial") +
                 " failed (the last: " + trials.back().reason + "): run again");
   for (const journal::TrialRecord& trial : trials) {
+    parts_.runner->Forget(JobOf(trial));
     std::filesystem::remove_all(folder_.trial(trial.id));
     ++reruns_[trial.id];
   }
@@ -42,6 +70,11 @@ void Campaign::TellFinished() {
 }
 
 void Campaign::TakeUpRunning() {
+  std::vector<runners::Job> jobs;
+  for (const journal::TrialRecord& trial : journal_.Trials()) {
+    if (trial.status == journal::TrialStatus::kRunning) jobs.push_back(JobOf(trial));
+  }
+  RequireNoneQueued(spec_, folder_.root, jobs);
   for (const journal::TrialRecord& trial : journal_.Trials()) {
     if (trial.status != journal::TrialStatus::kRunning) continue;
     if (parts_.runner->Adopt(JobOf(trial), trial.job)) {

@@ -1,5 +1,7 @@
 // When a search or a session ends: it is noted, and stays so; what was found is written.
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -30,10 +32,14 @@ bool Campaign::StayEnded() {
 }
 
 // Trials that were under way are told after a rule has ended the search: asked anew, with these, it
-// may answer otherwise.
-void Campaign::NoteStop() {
+// may answer otherwise. So may a budget of time, whose trials counted by an estimate, when the
+// first confirmations, which are lost where the search goes on, have been planned.
+void Campaign::NoteStop(const std::vector<journal::TrialRecord>& planned) {
   const std::optional<Stop>& stop = planner_.stop();
-  if (!stop_json_.empty() || !stop || stop->kind != StopKind::kRule) return;
+  if (!stop_json_.empty() || !stop || stop->kind == StopKind::kAllFailed) return;
+  const bool confirms =
+      std::ranges::count(planned, journal::TrialKind::kConfirm, &journal::TrialRecord::kind) > 0;
+  if (stop->kind != StopKind::kRule && !confirms) return;
   stop_json_ = base::JsonTextWriter::TextOf(*stop);
   NoteProgress();
 }
@@ -43,6 +49,9 @@ void Campaign::NoteProgress() {
 }
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
+  // One that had ended before keeps its state and its result.
+  const bool asked = interrupt != base::Interrupt::kNone;
+  if (asked && journal_.Progress().state == "finished") return CampaignEnd::kInterrupted;
   for (const EndedTrial& ended : ended_) journal_.NoteEnd(ended.trial);
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   journal::ProgressRecord progress{

@@ -2,8 +2,10 @@
 
 #include <string>
 
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
+#include "experiments/campaign/record/trial_end.h"
 
 namespace talus::campaign {
 namespace {
@@ -13,11 +15,19 @@ namespace fs = std::filesystem;
 // A job in a queue goes on without this process; its name, beside its folder, finds it again.
 fs::path NoteOf(const fs::path& folder) { return folder.string() + ".job"; }
 
+// What a queue has of it is taken up before anything is written: it may still run in the folder.
+bool TakeUp(const runners::Job& job, const FolderCase& run, const CampaignParts& parts) {
+  if (!parts.engine->IsPrepared(run.rig_case, run.folder)) return false;
+  const fs::path note = NoteOf(run.folder);
+  runners::Job again = job;
+  again.command = parts.engine->Command(run.folder);
+  // The queue may have got it before the note was written.
+  return parts.runner->Adopt(again, fs::exists(note) ? base::ReadFile(note) : "");
+}
+
 void Start(const runners::Job& job, runners::Runner& runner) {
-  const fs::path note = NoteOf(job.folder);
-  if (fs::exists(note) && runner.Adopt(job, base::ReadFile(note))) return;
   const std::string name = runner.Submit({&job, 1}).front();
-  if (!name.empty()) base::WriteFileAtomically(note, name);
+  if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
 }
 
 }  // namespace
@@ -35,21 +45,31 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
   while (next < runs.count || running > 0) {
     while (next < runs.count && running < parts.runner->Capacity()) {
       const FolderCase run = runs.at(next++);
-      engine.Prepare(run.rig_case, run.folder);
-      if (engine.IsComplete(run.folder)) {
-        runs.has_ended(next - 1);
-        continue;
+      runners::Job job{.id = static_cast<std::int64_t>(next),
+                       .folder = run.folder,
+                       .command = {},
+                       .time_cap = runs.time_cap};
+      if (engine.IsComplete(run.folder) || !TakeUp(job, run, parts)) {
+        engine.Prepare(run.rig_case, run.folder);
+        if (engine.IsComplete(run.folder)) {
+          runs.has_ended(next - 1);
+          continue;
+        }
+        job.command = engine.Command(run.folder);
+        Start(job, *parts.runner);
       }
-      Start({.id = static_cast<std::int64_t>(next),
-             .folder = run.folder,
-             .command = engine.Command(run.folder),
-             .time_cap = runs.time_cap},
-            *parts.runner);
       ++running;
     }
     for (const runners::FinishedJob& job : parts.runner->Wait(0.5)) {
       const auto index = static_cast<std::size_t>(job.id - 1);
-      fs::remove(NoteOf(runs.at(index).folder));
+      const fs::path folder = runs.at(index).folder;
+      // The same call later simulates what has left no result.
+      parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
+      fs::remove(NoteOf(folder));
+      if (job.end == runners::JobEnd::kNotStarted) {  // so would be every other
+        throw base::Error(folder.string() + ": could not be started: " + FailureText(job, folder) +
+                          "; mend this, and the same command goes on");
+      }
       runs.has_ended(index);
       --running;
     }

@@ -16,7 +16,6 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
-#include "experiments/campaign/mended_engine.h"
 #include "experiments/campaign/record/heap_mass.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/reuse.h"
@@ -29,9 +28,6 @@ namespace talus::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kMoved = "moved";  // an event: only where its files lie has changed
-constexpr int kOfAddedParameter = 16;    // simulations of each experiment, where nobody says
 
 std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
   std::vector<journal::ParameterRecord> records;
@@ -98,128 +94,25 @@ journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   return RebuildJournal(folder);
 }
 
-// A change of the campaign, to be written when nothing is left that could refuse it.
-struct SpecChange {
-  CampaignSpec spec;
-  std::string text;   // as the user wrote it
-  std::string event;  // its kind; empty when nothing changes
-  std::string words;
-  bool engine_is_new = false;  // a mended one, with which no trial has been run
-};
-
-// Templates that are not where they were, as after the whole project has been moved: they are
-// looked for beside the spec that is named, or beside the campaign's folder, by the path that the
-// spec's text has.
-void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root,
-                     const fs::path& named, SpecChange& change) {
-  auto& templates = change.spec.engine.command.templates;
-  if (!templates || fs::is_directory(*templates)) return;
-  const nlohmann::json written = base::ParseJson(record.spec_text, record.spec_path).root;
-  const fs::path beside = named.empty() ? root.parent_path() : fs::absolute(named).parent_path();
-  const fs::path moved =
-      (beside / written.at("engine").at("templates").get<std::string>()).lexically_normal();
-  if (!fs::is_directory(moved)) return;
-  templates = moved;
-  change.event = kMoved;
-  change.words = "its templates lie in " + moved.string() + " now";
-}
-
-// What the campaign was given after it began, and the spec's file cannot know of: further tests,
-// and a budget, unless the file's own has been changed since.
-void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& written,
-                      const CampaignSpec& going, CampaignSpec& read) {
-  const auto budget = [](const nlohmann::json& spec) {
-    return spec.value("budget", nlohmann::json());
-  };
-  if (budget(begun_with) == budget(written)) read.budget = going.budget;
-  if (!going.experiments) return;
-  const std::vector<ExperimentSpec>& all = *going.experiments;
-  const std::size_t num_begun =
-      begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
-  std::vector<ExperimentSpec> kept = ExperimentsOf(read);
-  // A file that has been kept in step has them all.
-  if (num_begun >= all.size() || kept.size() != num_begun) return;
-  kept.insert(kept.end(), all.begin() + static_cast<std::ptrdiff_t>(num_begun), all.end());
-  read.experiments = std::move(kept);
-  read.experiment.reset();
-}
-
-// No trial has succeeded with the one before.
-void NoteMendedEngine(SpecChange& change) {
-  change.engine_is_new = true;
-  change.event = "engine";
-  change.words += (change.words.empty() ? "" : ", ") +
-                  std::string("its engine has changed, with which no trial had succeeded");
-}
-
-// The spec as it is to be from now on; says what has changed where that is not allowed.
-SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
-                          const std::vector<journal::TrialRecord>& trials, const fs::path& root,
-                          const ResumeOptions& options) {
-  const bool named = !options.spec.empty();
-  const fs::path path = named ? options.spec : fs::path(record.spec_path);
-  SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
-  if (named || fs::exists(path)) change.text = base::ReadFile(path);
-  if (change.text == record.spec_text) {
-    change.spec = ParseSpecText(record.spec_json);
-    FollowTemplates(record, root, options.spec, change);
-    if (TakeMendedTemplates(trials, change.spec)) NoteMendedEngine(change);
-    return change;
-  }
-  const CampaignSpec begun = ParseSpecText(record.spec_json);
-  const base::JsonFile file = base::ReadJsonFile(path);
-  change.spec = ReadSpecWithPosteriors(file, &begun);
-  // `calibrate --hold-out` is of the campaign and not in the file.
-  if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
-  KeepAddedParameters(begun, change.spec);
-  KeepWhatWasGiven(base::ParseJson(record.spec_text, record.spec_path).root, file.root, begun,
-                   change.spec);
-  auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
-  const bool engine_is_new = AllowMendedEngine(trials, forbidden);
-  if (!forbidden.empty()) {
-    std::string message = path.string() +
-                          ": has changed since the campaign began, in what its trials depend on; "
-                          "undo this, or begin a new campaign:";
-    for (const std::string& what : forbidden) message += "\n  " + what;
-    throw base::ConfigError(message);
-  }
-  change.event = "spec";
-  change.words = "changed in budget, workers or other things that may change";
-  if (engine_is_new) NoteMendedEngine(change);
-  return change;
-}
-
-void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
-  int num_search = 0;
-  for (const journal::TrialRecord& trial : journal.Trials()) num_search += IsPaidFor(trial);
-  const bool finished = journal.Progress().state == "finished";
-  BudgetOptions& budget = change.spec.budget;
-  const int from = finished ? num_search : std::max(num_search, budget.simulations);
-  if (num_more > BudgetOptions::kMostSimulations - from) {
-    throw base::ConfigError("--add-simulations: " + std::to_string(num_more) +
-                            " more would be above " +
-                            std::to_string(BudgetOptions::kMostSimulations) + " simulations");
-  }
-  budget.simulations = from + num_more;
-  budget.min_simulations = budget.simulations;
-  budget.core_time.reset();  // it is counted in simulations from now on
-  if (change.event.empty() || change.event == kMoved) change.event = "extend";
-  change.words +=
-      (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
-}
-
-void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
-  for (const std::string& text : search) {
-    const AddedParameter added = ParseAddedParameter(text);
-    change.spec = SpecWith(change.spec, added);
-    change.event = "search";
-    change.words += (change.words.empty() ? "" : ", ") + added.name + " from now on";
-  }
-}
+constexpr const char* kLock = "campaign.lock";
 
 // What may be in a folder that a campaign begins in: what a process that was killed, or another
-// that begins now, has left there before the campaign itself.
-constexpr std::string_view kMayBeThere[] = {"campaign.lock", kCopiesFolder};
+// that begins now, has left there before the campaign itself. No image is without the lock,
+// which is there first: a user's own may have these names.
+bool HoldsOnlyBeginnings(const CampaignFolder& folder) {
+  constexpr std::string_view kCopies[] = {kCopiesFolder};
+  if (!fs::exists(folder.root / kLock)) return base::HoldsOnly(folder.root, kCopies);
+  for (const auto& entry : fs::directory_iterator(folder.root)) {
+    const std::string name = entry.path().filename();
+    const bool is_image =
+        name.ends_with(".png") && (name.starts_with("aehp") || name.starts_with("run_"));
+    const bool may_be_there = name == kLock || name == kCopiesFolder || is_image ||
+                              name.starts_with("experiment_") ||
+                              name.find(".tmp") != std::string::npos;
+    if (!may_be_there) return false;
+  }
+  return true;
+}
 
 void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
   if (fs::exists(journal::JournalPath(folder.root)) || fs::exists(folder.campaign())) {
@@ -227,7 +120,7 @@ void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
                             base::ShellWord(shown.string()) +
                             "` goes on with it, or name another folder with --out");
   }
-  if (base::HoldsOnly(folder.root, kMayBeThere)) return;
+  if (HoldsOnlyBeginnings(folder)) return;
   throw base::ConfigError(shown.string() +
                           ": holds other files, which the campaign's could overwrite; name a new "
                           "folder with --out");
@@ -271,6 +164,16 @@ std::vector<journal::ExperimentRecord> MeasuredExperiments(const CampaignSpec& s
   }
   if (!faults.empty()) throw base::ConfigError(base::Joined(faults, "\n"));
   return records;
+}
+
+// The folder first: a journal that is made anew from it is to know of the change as well.
+void WriteSpec(const CampaignFolder& folder, const SpecChange& change, journal::Journal& journal) {
+  journal::CampaignRecord record = journal.Campaign();
+  if (!change.path.empty()) record.spec_path = change.path;
+  record.spec_text = change.text;
+  record.spec_json = SpecText(change.spec);
+  KeepCampaign(folder, record);
+  journal.SetSpec(record);
 }
 
 }  // namespace
@@ -359,25 +262,18 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (fs::exists(folder.campaign())) AdoptCopies(folder);
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
-  SpecChange change = SpecToGoOnWith(record, journal.Trials(), folder.root, options);
-  AddParameters(options.search, change);
-  const int num_more = options.add_simulations > 0 || options.search.empty()
-                           ? options.add_simulations
-                           : kOfAddedParameter * static_cast<int>(record.experiments.size());
-  if (num_more > 0) AddSimulations(journal, num_more, change);
+  const SpecChange change = ChangeOf(journal, folder.root, options);
   CampaignSpec spec = change.spec;
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
   if (change.engine_is_new) base::WriteFileAtomically(folder.mended(), change.words + "\n");
   // First: a search that stayed ended beside its changed spec would never go on.
-  const bool searches_on = !change.event.empty() && change.event != kMoved;
-  if (searches_on || options.objective) Reopen(journal);
+  if (change.SearchesOn() || options.objective) Reopen(journal);
   if (!options.search.empty()) {
     WriteAddedParameters(folder, change.spec, change.text, journal);
-  } else if (!change.event.empty()) {
-    journal.SetSpec(change.text, SpecText(change.spec));
   }
+  if (!change.event.empty() || !change.path.empty()) WriteSpec(folder, change, journal);
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }

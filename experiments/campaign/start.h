@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/spec_change.h"
 #include "experiments/trials/engines/trial_engine.h"
 #include "imaging/photos/experiment.h"
 
@@ -40,14 +41,6 @@ struct BeginOptions {
 // experiment's images or the folders to reuse are no good.
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder,
                    const BeginOptions& options = {});
-
-struct ResumeOptions {
-  std::filesystem::path spec{};                   // a changed spec; empty: the one it began with
-  int add_simulations = 0;                        // >= 0
-  std::optional<journal::Objective> objective{};  // searched on with, instead of the spec's
-  // Parameters to be searched from now on, "restitution=0.3..0.95" each: add_parameter.h.
-  std::vector<std::string> search{};
-};
 
 // Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
 // ConfigError that names what has changed in the spec where that is not allowed.

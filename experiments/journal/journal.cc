@@ -217,9 +217,9 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
   for (const TrialRecord& t : trials) {
     database_
         .Prepare(
-            "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5 WHERE id = "
-            "?1 AND status = 'running'")
-        .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc)
+            "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5, duration_s = "
+            "?6, cpu_s = ?7 WHERE id = ?1 AND status = 'running'")
+        .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc, t.duration_s, t.cpu_s)
         .Finish();
     SealTrial(database_, t.id);
   }

@@ -38,8 +38,8 @@ class Journal {
   CampaignRecord Campaign();
   ProgressRecord Progress();
   void SetProgress(const ProgressRecord& progress);
-  // The spec after an allowed change.
-  void SetSpec(std::string_view spec_text, std::string_view spec_json);
+  // The spec after an allowed change: its path and its texts.
+  void SetSpec(const CampaignRecord& campaign);
   // Other parameters than it began with, and for each of `trials`, which are all of them, its
   // point; together with the spec's texts. There is no result any more.
   void SetParameters(const CampaignRecord& campaign, std::span<const TrialRecord> trials);
@@ -55,7 +55,7 @@ class Journal {
   // power cut ends the trials too.
   void Start(std::span<const TrialRecord> trials,
              base::Outlives outlives = base::Outlives::kPowerCut);
-  // Running trials get another seed, attempt or job name.
+  // Running trials get another seed, attempt or job name; with what they have taken so far.
   void Restart(std::span<const TrialRecord> trials);
   // Failed trials are as if they had never ended.
   void Reopen(std::span<const TrialRecord> trials);

@@ -124,10 +124,10 @@ void Journal::SetProgress(const ProgressRecord& progress) {
   transaction.Commit();
 }
 
-void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
+void Journal::SetSpec(const CampaignRecord& campaign) {
   Transaction transaction(database_);
-  database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2")
-      .Bind(spec_text, spec_json)
+  database_.Prepare("UPDATE campaign SET spec_path = ?1, spec_text = ?2, spec_json = ?3")
+      .Bind(campaign.spec_path, campaign.spec_text, campaign.spec_json)
       .Finish();
   SealCampaign(database_);
   transaction.Commit();

@@ -70,6 +70,10 @@ class Runner {
   // is running then.
   virtual bool Adopt(const Job& job, const std::string& name) = 0;
 
+  // What was submitted of a job so far, and has ended, is not to be adopted any more, by a later
+  // process either: it is to be submitted again, or never.
+  virtual void Forget(const Job&) {}
+
   // Jobs that have finished since the last call. Waits up to `seconds` for the first; returns
   // earlier, perhaps with none, when a signal arrives.
   virtual std::vector<FinishedJob> Wait(double seconds) = 0;

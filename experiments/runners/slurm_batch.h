@@ -5,6 +5,7 @@
 //   DIR/slurm/batch-000012.job   what sbatch has answered: the array's job number
 //   DIR/slurm/batch-000012-7.log what Slurm itself has to say of task 7; gone when that is nothing
 //   DIR/slurm/batch-000012-7.cancelled  that we have cancelled task 7
+//   DIR/slurm/batch-000012-7.forgotten  that task 7 has ended and counts no more
 //   TRIAL/.slurm_end             written by the script when the command has ended
 #pragma once
 

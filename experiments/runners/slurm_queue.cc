@@ -28,9 +28,6 @@ double NumberOf(std::string_view text) {
   return number;
 }
 
-// "1234_7" → "1234"
-std::string ArrayOf(const std::string& job) { return job.substr(0, job.find('_')); }
-
 }  // namespace
 
 bool IsUnfinished(const SlurmState& state) {
@@ -123,7 +120,7 @@ bool SlurmQueue::HasNoJobs() const {
   return queue.ok() && queue.output.find_first_not_of(" \n") == std::string::npos;
 }
 
-StatesReply SlurmQueue::States(const std::set<std::string>& jobs) const {
+StatesReply SlurmQueue::States(const std::set<std::pair<std::string, int>>& tasks) const {
   // Its own user's jobs, not a list of numbers: squeue fails when one of them is forgotten.
   const ToolResult queue =
       RunTool({"squeue", "--me", "--states=all", "--noheader", "--array", "--format=%i|%T|%r|%M"});
@@ -132,16 +129,15 @@ StatesReply SlurmQueue::States(const std::set<std::string>& jobs) const {
     return {.states = std::nullopt, .error = said.empty() ? "it gave no answer" : said};
   }
   SlurmStates states = ParseSqueue(queue.output);
-  std::set<std::string> known;
-  for (const auto& [job, state] : states) known.insert(ArrayOf(job));
-  std::set<std::string> forgotten;
-  std::set_difference(jobs.begin(), jobs.end(), known.begin(), known.end(),
-                      std::inserter(forgotten, forgotten.end()));
+  std::set<std::string> forgotten;  // arrays of which a task at least is
+  for (const auto& [array, task] : tasks) {
+    if (StateOf(states, array, task).name == kLost) forgotten.insert(array);
+  }
   if (forgotten.empty()) return {.states = std::move(states), .error = {}};
   const ToolResult accounting =
       RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--array",
                "--format=JobID,State,Elapsed", "--jobs=" + base::Joined(forgotten, ",")});
-  // A cluster without accounting: what squeue has forgotten nobody knows.
+  // A cluster without accounting: what squeue has forgotten nobody knows. What squeue says counts.
   if (accounting.ok()) states.merge(ParseSacct(accounting.output));
   return {.states = std::move(states), .error = {}};
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace talus::runners {
 
@@ -58,9 +59,9 @@ class SlurmQueue {
   SubmitReply Submit(const std::filesystem::path& script,
                      const std::filesystem::path& reply_file) const;
 
-  // What squeue, and for jobs it has forgotten sacct, say of `jobs` (array numbers). No states when
-  // Slurm does not answer.
-  StatesReply States(const std::set<std::string>& jobs) const;
+  // What squeue, and of tasks that it has forgotten sacct, say of `tasks`: an array's number and
+  // the task's each. No states when Slurm does not answer.
+  StatesReply States(const std::set<std::pair<std::string, int>>& tasks) const;
 
   // The array's number of a job name; "" when Slurm knows none. Throws base::Error when it does not
   // answer: then nobody can tell.

@@ -77,10 +77,9 @@ std::optional<TaskEnd> EndOf(const Job& job, std::int64_t batch, int index) {
   return ours ? end : std::nullopt;
 }
 
-// By whatever names: through a link, with "./" before it.
-bool IsSameFolder(const fs::path& a, const fs::path& b) {
-  std::error_code absent;
-  return a == b || fs::equivalent(a, b, absent);
+fs::path Made(const fs::path& folder) {
+  fs::create_directories(folder);
+  return folder;
 }
 
 }  // namespace
@@ -89,30 +88,13 @@ SlurmRunner::SlurmRunner(const SlurmOptions& options, const fs::path& campaign)
     : options_(options),
       folder_(fs::absolute(campaign) / "slurm"),
       name_(NameOf(folder_.parent_path())),
+      records_(Made(folder_)),
       last_poll_(Clock::now()) {
-  fs::create_directories(folder_);
   campaign_id_ = CampaignId(folder_);
-  ReadRecords();
-}
-
-fs::path SlurmRunner::BatchFile(std::int64_t batch, const char* ending) const {
-  std::string number = std::to_string(batch);
-  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
-  return folder_ / ("batch-" + number + ending);
 }
 
 fs::path SlurmRunner::CancelMark(const Task& task) const {
-  return BatchFile(task.batch, ("-" + std::to_string(task.index) + ".cancelled").c_str());
-}
-
-void SlurmRunner::ReadRecords() {
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (entry.path().extension() != ".sh") continue;
-    if (const auto batch = ParseBatch(base::ReadFile(entry.path()))) {
-      records_[batch->number] = *batch;
-      last_batch_ = std::max(last_batch_, batch->number);
-    }
-  }
+  return records_.File(task.batch, "-" + std::to_string(task.index) + ".cancelled");
 }
 
 std::vector<std::string> SlurmRunner::Submit(std::span<const Job> jobs) {
@@ -133,7 +115,7 @@ std::vector<std::string> SlurmRunner::Submit(std::span<const Job> jobs) {
 }
 
 void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
-  Batch batch{.number = ++last_batch_, .job_name = {}, .jobs = {}};
+  Batch batch{.number = records_.last_batch() + 1, .job_name = {}, .jobs = {}};
   batch.job_name = name_ + "-talus-" + campaign_id_ + "-" + std::to_string(batch.number);
   for (Task& task : tasks) {
     task.batch = batch.number;
@@ -142,15 +124,17 @@ void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
     std::error_code ignored;
     fs::remove(task.job.folder / kTaskEndFile, ignored);
   }
-  base::WriteFileAtomically(BatchFile(batch.number, ".sh"),
-                            BatchScript(batch, options_, BatchFile(batch.number, "")));
+  base::WriteFileAtomically(records_.File(batch.number, ".sh"),
+                            BatchScript(batch, options_, records_.File(batch.number, "")));
+  records_.Add(batch);
   for (Task& task : tasks) tasks_[task.job.id] = std::move(task);
   SendBatch(batch.number);
 }
 
 void SlurmRunner::SendBatch(std::int64_t batch) {
   const InheritedLock lock(folder_ / "lock");
-  const SubmitReply reply = queue_.Submit(BatchFile(batch, ".sh"), BatchFile(batch, ".job"));
+  const SubmitReply reply =
+      queue_.Submit(records_.File(batch, ".sh"), records_.File(batch, ".job"));
   refusal_ = reply.try_again ? std::string(base::Trimmed(reply.error)) : "";
   std::vector<Task> refused;
   for (auto& [id, task] : tasks_) {
@@ -161,7 +145,9 @@ void SlurmRunner::SendBatch(std::int64_t batch) {
   for (const Task& task : refused) {
     Report(task, Finished(task.job.id, JobEnd::kNotStarted, "sbatch: " + reply.error));
   }
-  if (!refused.empty()) fs::remove(BatchFile(batch, ".sh"));
+  if (refused.empty()) return;
+  fs::remove(records_.File(batch, ".sh"));
+  records_.Remove(batch);
 }
 
 // The batches that Slurm did not take. It may have taken one after all and only not have answered.
@@ -171,7 +157,7 @@ void SlurmRunner::SendAgain() {
     if (task.array.empty()) unsent[task.batch];
   }
   for (auto& [batch, array] : unsent) {
-    const auto script = ParseBatch(base::ReadFile(BatchFile(batch, ".sh")));
+    const auto script = ParseBatch(base::ReadFile(records_.File(batch, ".sh")));
     try {
       array = queue_.Find(script.value().job_name);
     } catch (const base::Error&) {
@@ -184,26 +170,10 @@ void SlurmRunner::SendAgain() {
   }
 }
 
-// An earlier process may have run the job more often than this one knows of: the last one counts.
-const Batch* SlurmRunner::LastRecordOf(const Job& job, int& submissions) const {
-  const Batch* last = nullptr;
-  submissions = 0;
-  for (const auto& [number, batch] : records_) {
-    const bool has = std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](const Job& recorded) {
-      return recorded.id == job.id && recorded.attempt >= job.attempt &&
-             IsSameFolder(recorded.folder, job.folder);
-    });
-    if (!has) continue;
-    last = &batch;
-    ++submissions;
-  }
-  return last;
-}
-
 // The array's number; "" when Slurm has never got the batch.
 std::string SlurmRunner::ArrayOf(const Batch& batch) const {
   const InheritedLock lock(folder_ / "lock");  // waits for an sbatch that is still on its way
-  const fs::path reply = BatchFile(batch.number, ".job");
+  const fs::path reply = records_.File(batch.number, ".job");
   if (fs::exists(reply)) {
     const std::string array = ParseSubmitted(base::ReadFile(reply));
     if (!array.empty()) return array;
@@ -212,21 +182,18 @@ std::string SlurmRunner::ArrayOf(const Batch& batch) const {
 }
 
 bool SlurmRunner::Adopt(const Job& job, const std::string&) {
-  int submissions = 0;
-  const Batch* batch = LastRecordOf(job, submissions);
-  if (batch == nullptr) return false;
-  const auto same = [&](const Job& recorded) { return recorded.id == job.id; };
-  const auto place = std::find_if(batch->jobs.begin(), batch->jobs.end(), same);
+  const auto last = records_.Last(job);
+  if (!last) return false;
   Task task{.job = job,
-            .batch = batch->number,
-            .index = static_cast<int>(place - batch->jobs.begin()),
+            .batch = last->batch.number,
+            .index = last->index,
             .array = {},
-            .requeues = submissions - 1};
+            .requeues = last->num_submissions - 1};
   task.dropped = fs::exists(CancelMark(task));
   if (const auto end = EndOf(job, task.batch, task.index)) {
     if (NeverBegan(*end)) return false;  // whoever resumes has mended the set-up meanwhile
   } else {
-    task.array = ArrayOf(*batch);
+    task.array = ArrayOf(last->batch);
     if (task.array.empty()) return false;
   }
   tasks_[job.id] = std::move(task);
@@ -268,11 +235,11 @@ void SlurmRunner::CollectEndFiles() {
 }
 
 void SlurmRunner::Poll() {
-  std::set<std::string> arrays;
+  std::set<std::pair<std::string, int>> asked;
   for (const auto& [id, task] : tasks_) {
-    if (!task.array.empty()) arrays.insert(task.array);
+    if (!task.array.empty()) asked.emplace(task.array, task.index);
   }
-  const StatesReply reply = queue_.States(arrays);
+  const StatesReply reply = queue_.States(asked);
   silence_ = reply.error;
   if (!reply.states) return;  // Slurm does not answer; the jobs go on without us
   for (auto& [id, task] : tasks_) {
@@ -297,7 +264,7 @@ void SlurmRunner::JudgeEnded() {
 }
 
 fs::path SlurmRunner::LogFileOf(const Task& task) const {
-  return TaskLog(BatchFile(task.batch, ""), std::to_string(task.index));
+  return TaskLog(records_.File(task.batch, ""), std::to_string(task.index));
 }
 
 // What Slurm and the script's own set-up have said; Slurm's lines come last.
@@ -379,6 +346,16 @@ std::string SlurmRunner::Trouble() const {
 int SlurmRunner::NumWaiting() const {
   return static_cast<int>(
       std::ranges::count_if(tasks_, [](const auto& t) { return !t.second.begun; }));
+}
+
+int SlurmRunner::NumInQueue() {
+  const auto may_run = [](const auto& task) {
+    return !task.second.ended && !EndOf(task.second.job, task.second.batch, task.second.index);
+  };
+  if (std::ranges::none_of(tasks_, may_run)) return 0;
+  Poll();
+  if (!silence_.empty()) throw base::Error("squeue does not say how the jobs are: " + silence_);
+  return static_cast<int>(std::ranges::count_if(tasks_, may_run));
 }
 
 std::vector<std::int64_t> SlurmRunner::TakeBackUnsent() {

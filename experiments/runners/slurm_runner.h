@@ -17,6 +17,7 @@
 #include "experiments/runners/slurm_batch.h"
 #include "experiments/runners/slurm_options.h"
 #include "experiments/runners/slurm_queue.h"
+#include "experiments/runners/slurm_records.h"
 
 namespace talus::runners {
 
@@ -29,11 +30,16 @@ class SlurmRunner : public Runner {
   bool JobsOutliveUs() const override { return true; }
   std::vector<std::string> Submit(std::span<const Job> jobs) override;
   bool Adopt(const Job& job, const std::string& name) override;
+  void Forget(const Job& job) override { records_.Forget(job); }
   std::vector<FinishedJob> Wait(double seconds) override;
   void Cancel(std::int64_t id) override;
   std::string Trouble() const override;
   int NumWaiting() const override;
   std::vector<std::int64_t> TakeBackUnsent() override;
+
+  // Unfinished jobs that wait or run in the queue, as it says now. Throws base::Error when it does
+  // not answer.
+  int NumInQueue();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -55,10 +61,7 @@ class SlurmRunner : public Runner {
     std::string Name() const { return array + "_" + std::to_string(index); }
   };
 
-  std::filesystem::path BatchFile(std::int64_t batch, const char* ending) const;
   std::filesystem::path CancelMark(const Task& task) const;
-  void ReadRecords();
-  const Batch* LastRecordOf(const Job& job, int& submissions) const;
   std::string ArrayOf(const Batch& batch) const;
 
   void SubmitBatch(std::vector<Task> tasks);
@@ -78,11 +81,10 @@ class SlurmRunner : public Runner {
   std::string name_;              // of the campaign's folder, first in the names of its jobs
   std::string campaign_id_;
   SlurmQueue queue_;
-  std::int64_t last_batch_ = 0;
-  std::map<std::int64_t, Batch> records_;  // of earlier processes, by number
-  std::map<std::int64_t, Task> tasks_;     // unfinished, by job id
-  std::string refusal_;                    // what sbatch said when it took the last one not yet
-  std::string silence_;                    // what squeue said when it did not answer last
+  SlurmRecords records_;
+  std::map<std::int64_t, Task> tasks_;  // unfinished, by job id
+  std::string refusal_;                 // what sbatch said when it took the last one not yet
+  std::string silence_;                 // what squeue said when it did not answer last
   Clock::time_point last_poll_;
   std::vector<FinishedJob> finished_;
 };

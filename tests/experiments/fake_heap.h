@@ -136,6 +136,9 @@ class FakeEngine : public trials::TrialEngine {
     if (options_.vanish) script += "rm -r \"$PWD\"\n";
     std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
   }
+  bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override {
+    return trials::HoldsKey(folder, "case.json", rigs::CaseText(rig_case));
+  }
   std::vector<std::string> Command(const std::filesystem::path&) override {
     if (options_.no_command) return {"talus-no-such-program"};
     return {"sh", "run.sh"};

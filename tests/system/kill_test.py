@@ -117,11 +117,9 @@ def killed_campaign(talus, source, most_kills, dice, two):
                 assert campaign.returncode in KILLED, output
                 for file in sorted((folder / "out").rglob("*")) if (folder / "out").exists() else []:
                     assert file.name in ("campaign.lock", "aehp.png", "aehp_sd.png", "campaign.json") \
-                        or ".tmp" in file.name, file
+                        or ".tmp" in file.name or file.name.startswith(("run_", "experiment_")), file
                 if (folder / "out/campaign.json").exists():
                     command = [talus, "resume", "out"]
-                else:
-                    subprocess.run(["rm", "-rf", "out"], cwd=folder, check=True)
                 continue
             command = [talus, "resume", "out"]
             assert campaign.returncode in (0, *KILLED), output

@@ -162,7 +162,7 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
                                             const base::InterruptGuard& interrupt) {
   constexpr int kDraws = 1000;
   const campaign::JointView view = campaign::ReadJointView(plan_.folder.root);
-  GoalState state{.goal = campaign::GoalText(plan_.spec), .after = num_ended};
+  GoalState state = campaign::NewGoalState(plan_.spec, num_ended);
   const fs::path folder = campaign::GoalFolder(plan_.folder.root) / base::FileNumber(num_ended);
   const auto strategy = campaign::StrategyOf(view, view.Answered());
   if (!strategy->CanModel()) {  // by the next look it can

@@ -148,6 +148,11 @@ void SceneEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
                         engine::SceneText(SceneWith(ParseScene(scene_text_), rig_case)));
 }
 
+bool SceneEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
+  return trials::HoldsKey(folder, kSceneFile,
+                          engine::SceneText(SceneWith(ParseScene(scene_text_), rig_case)));
+}
+
 std::vector<std::string> SceneEngine::Command(const fs::path&) {
   return {trials::TalusEngine::ThisProgram().string(), "simulate", kSceneFile, "--out", "."};
 }

@@ -22,6 +22,7 @@ class SceneEngine : public trials::TrialEngine {
   explicit SceneEngine(std::string scene_text);
 
   void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
   trials::TrialOutput Collect(const rigs::Case& rig_case,

@@ -14,6 +14,7 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/answer/representatives.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/device_text.h"
 #include "imaging/photos/sad_from_others.h"
@@ -263,9 +264,7 @@ ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
     }
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
-    const double seconds =
-        trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * CoresOfTrial(evidence.spec);
-    if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
+    cost.core_hours += MeasuredCoreTime(trial, evidence.spec) / 3600;
   }
   return cost;
 }

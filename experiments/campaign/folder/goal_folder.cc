@@ -14,6 +14,12 @@ namespace talus::campaign {
 namespace {
 
 constexpr const char* kGoalFile = "goal.json";
+constexpr std::int64_t kFirstLook = 16;  // number of ended trials
+
+bool IsJudgedWith(const CampaignSpec& spec, const GoalState& state) {
+  const GoalState now = NewGoalState(spec, state.after);
+  return state.num_experiments == now.num_experiments && state.num_parameters == now.num_parameters;
+}
 
 }  // namespace
 
@@ -31,6 +37,13 @@ std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campai
   return looks;
 }
 
+GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after) {
+  return {.goal = GoalText(spec),
+          .after = after,
+          .num_experiments = static_cast<int>(ExperimentsOf(spec).size()),
+          .num_parameters = static_cast<int>(SpaceOf(spec).Free().size())};
+}
+
 std::optional<GoalState> LastGoal(const std::filesystem::path& campaign, const CampaignSpec& spec) {
   std::optional<GoalState> last;
   if (!spec.goal) return last;
@@ -38,6 +51,7 @@ std::optional<GoalState> LastGoal(const std::filesystem::path& campaign, const C
     auto state = ReadRecordFile<GoalState>(look / kGoalFile);
     if (state && state->goal == GoalText(spec)) last = std::move(state);
   }
+  if (last && !IsJudgedWith(spec, *last)) last->reason.reset();
   return last;
 }
 
@@ -59,9 +73,12 @@ std::string TextOf(const GoalState& state, const GoalSpec& asked) {
          base::Counted(state.num_runs, "run") + " of it";
 }
 
-std::int64_t NextLook(std::int64_t last) {
-  constexpr std::int64_t kFirst = 16;
-  return last == 0 ? kFirst : last + last / 2;
+std::int64_t NextLook(std::int64_t last) { return last == 0 ? kFirstLook : last + last / 2; }
+
+std::int64_t NextLook(const std::optional<GoalState>& last, const CampaignSpec& spec) {
+  const std::int64_t next = NextLook(last ? last->after : 0);
+  if (!last || IsJudgedWith(spec, *last)) return next;
+  return std::min(next, last->after + kFirstLook);
 }
 
 }  // namespace talus::campaign

@@ -18,8 +18,10 @@ namespace talus::campaign {
 struct GoalState {
   static constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-  std::string goal{};                             // what was asked for, as GoalText writes it
-  std::int64_t after = 0;                         // trials of noise and search that had ended
+  std::string goal{};       // what was asked for, as GoalText writes it
+  std::int64_t after = 0;   // trials of noise and search that had ended
+  int num_experiments = 0;  // that it was judged with, and parameters
+  int num_parameters = 0;
   double half_width = kNotKnown;                  // of the 90 %: the next two in squares
   double parameters_half_width = kNotKnown;       // what the sets leave open
   double surrogate_half_width = kNotKnown;        // of the number as a function of the sets
@@ -34,8 +36,8 @@ struct GoalState {
                                              {"surrogate_half_width", "surrogate_half_width_90"},
                                              {"least_half_width", "least_half_width_90"},
                                              {"core_time", "core_time_s"}};
-  TALUS_FIELDS(goal, after, half_width, parameters_half_width, surrogate_half_width,
-               least_half_width, num_runs, core_time, reason);
+  TALUS_FIELDS(goal, after, num_experiments, num_parameters, half_width, parameters_half_width,
+               surrogate_half_width, least_half_width, num_runs, core_time, reason);
 };
 
 struct CampaignSpec;
@@ -46,7 +48,11 @@ std::filesystem::path GoalFolder(const std::filesystem::path& campaign);  // abs
 // Folders of the looks, by number of trials.
 std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campaign);
 
-// The last look that was finished, at what this spec asks for; none where it asks for nothing.
+// What a look begins with.
+GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after);
+
+// The last look that was finished, at what this spec asks for; none where it asks for nothing. One
+// that was judged with other experiments or parameters is no reason to end the search.
 std::optional<GoalState> LastGoal(const std::filesystem::path& campaign, const CampaignSpec& spec);
 void KeepGoal(const std::filesystem::path& look, const GoalState& state);
 
@@ -58,5 +64,8 @@ std::string TextOf(const GoalState& state, const GoalSpec& asked);
 
 // The number of ended trials at which the goal is looked at after the look at `last`; 0: the first.
 std::int64_t NextLook(std::int64_t last);
+// The same after this look, sooner where experiments or parameters have come since; none: the
+// first.
+std::int64_t NextLook(const std::optional<GoalState>& last, const CampaignSpec& spec);
 
 }  // namespace talus::campaign

@@ -50,6 +50,15 @@ void PutAside(const std::filesystem::path& journal) {
   }
 }
 
+// One that is there without any was left by a beginning that was killed, of another spec perhaps.
+void KeepImage(const std::filesystem::path& path, const std::string& png) {
+  if (png.empty()) {
+    std::filesystem::remove(path);
+  } else {
+    base::WriteFileAtomically(path, png);
+  }
+}
+
 journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
   auto record = ReadRecord<journal::CampaignRecord>(folder.campaign());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
@@ -89,10 +98,8 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
     const journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
     std::filesystem::create_directories(place);
-    if (!experiment.aehp_png.empty()) base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
-    if (!experiment.aehp_sd_png.empty()) {
-      base::WriteFileAtomically(place / kAehpSd, experiment.aehp_sd_png);
-    }
+    KeepImage(place / kAehp, experiment.aehp_png);
+    KeepImage(place / kAehpSd, experiment.aehp_sd_png);
     for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
       base::WriteFileAtomically(place / RunFile(r), experiment.runs[r].png);
     }

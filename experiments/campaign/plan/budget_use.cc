@@ -120,7 +120,7 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
     ++use.num_search;
     if (!HasEnded(trial)) continue;
     ++search_ended;
-    use.core_seconds += MeasuredCoreTime(trial, CoresOfTrial(spec));
+    use.core_seconds += MeasuredCoreTime(trial, spec);
   }
   if (spec.budget.core_time) {
     use.core_seconds = std::min(use.core_seconds, *spec.budget.core_time);

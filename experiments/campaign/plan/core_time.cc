@@ -1,5 +1,6 @@
 #include "experiments/campaign/plan/core_time.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/campaign/plan/cores.h"
@@ -12,17 +13,26 @@ double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores) {
   return std::isfinite(seconds) ? seconds : 0;
 }
 
+double MeasuredCoreTime(const journal::TrialRecord& trial, const CampaignSpec& spec) {
+  const int num_cores = CoresOfTrial(spec);
+  const double measured = MeasuredCoreTime(trial, num_cores);
+  if (spec.runner.kind != RunnerKind::kSlurm || spec.engine.kind != EngineKind::kCommand) {
+    return measured;
+  }
+  return std::isfinite(trial.duration_s) ? std::max(measured, trial.duration_s * num_cores)
+                                         : measured;
+}
+
 double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   usual_.Clear();
   double sum = 0;
   for (const journal::TrialRecord& trial : trials) {
-    const double seconds = MeasuredCoreTime(trial, CoresOfTrial(spec_));
+    const double seconds = MeasuredCoreTime(trial, spec_);
     usual_.Add(trial.experiment, trial.scale_factor, seconds);
     sum += seconds;
   }
   for (const journal::TrialRecord& trial : trials) {
-    if (MeasuredCoreTime(trial, CoresOfTrial(spec_)) == 0)
-      sum += OfOne(trial.experiment, trial.scale_factor);
+    if (MeasuredCoreTime(trial, spec_) == 0) sum += OfOne(trial.experiment, trial.scale_factor);
   }
   return sum;
 }

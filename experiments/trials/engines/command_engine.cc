@@ -275,8 +275,8 @@ double CpuTimeOf(const fs::path& mark) {
 
 }  // namespace
 
-CommandEngine::CommandEngine(const CommandOptions& options)
-    : options_(options), templates_(options.templates.value()) {
+CommandEngine::CommandEngine(const CommandOptions& options, FormerFiles former)
+    : options_(options), templates_(options.templates.value()), former_(former) {
   if (!options.templates_hash.empty() && options.templates_hash != templates_.Hash()) {
     throw base::ConfigError(options.templates->string() +
                             ": the templates are not those that it began with; put them back, or "
@@ -290,6 +290,7 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
   for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
   RemoveScalars(folder);
+  if (former_ == FormerFiles::kRemove) RemoveFormer(folder);
   TemplateValues values = ValuesOf(options_, rig_case);
   if (templates_.Uses(options_, "grains")) AddGrains(rig_case, values);
   templates_.Fill(values, folder);
@@ -299,6 +300,11 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
   }
   const nlohmann::json command = filled;
   base::WriteFileAtomically(folder / kCommandFile, base::JsonText(command), Outlives::kProgram);
+}
+
+bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
+  return HoldsKey(folder, "case.json", CaseText({.heap = rig_case, .engine = options_})) &&
+         HasPrepared(folder);
 }
 
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {

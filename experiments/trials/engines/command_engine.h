@@ -13,12 +13,17 @@
 
 namespace talus::trials {
 
+// What Prepare makes of files that an attempt without an end has left: in a folder of the user's
+// some may be the user's own.
+enum class FormerFiles { kRemove, kKeep };
+
 class CommandEngine : public TrialEngine {
  public:
   // Throws ConfigError when the templates cannot be read or are not those of `options`' hash.
-  explicit CommandEngine(const CommandOptions& options);
+  explicit CommandEngine(const CommandOptions& options, FormerFiles former = FormerFiles::kRemove);
 
   void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   // Whether a command has been prepared there.
   static bool HasPrepared(const std::filesystem::path& folder);
@@ -34,6 +39,7 @@ class CommandEngine : public TrialEngine {
  private:
   CommandOptions options_;
   TemplateFolder templates_;
+  FormerFiles former_;
 };
 
 // What can be known to be wrong before anything runs: unknown placeholders, ones of `calibrated`

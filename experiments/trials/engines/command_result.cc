@@ -89,6 +89,21 @@ void RemoveResults(const CommandOptions& engine, const fs::path& folder) {
   for (const fs::path& path : Matches(engine, folder)) fs::remove(path);
 }
 
+void RemoveFormer(const fs::path& folder) {
+  std::vector<fs::path> former;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (name != "case.json" && name != "trial.json" && !name.starts_with('.')) {
+      former.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : former) {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (error) throw base::Error(path.string() + ": cannot be removed: " + error.message());
+  }
+}
+
 std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
                                      std::vector<base::Sphere> spheres) {
   for (base::Sphere& sphere : spheres) {

@@ -87,6 +87,10 @@ void TalusEngine::Prepare(const rigs::Case& rig_case, const std::filesystem::pat
   PrepareFolder(folder, "case.json", rigs::CaseText(rig_case));
 }
 
+bool TalusEngine::IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) {
+  return HoldsKey(folder, "case.json", rigs::CaseText(rig_case));
+}
+
 std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
   return {program_.string(), "simulate", "case.json", "--out", "."};
 }

@@ -15,6 +15,7 @@ class TalusEngine : public TrialEngine {
   explicit TalusEngine(std::filesystem::path program = ThisProgram());
 
   void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
   TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;

@@ -20,13 +20,18 @@ std::string TextOf(const std::filesystem::path& path) {
 
 void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
                    const std::string& text) {
-  if (TextOf(folder / key_file) == text) return;
+  if (HoldsKey(folder, key_file, text)) return;
   std::error_code error;
   std::filesystem::remove_all(folder, error);
   if (!error) std::filesystem::create_directories(folder, error);
   if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
   // Torn by a power cut it is not `text`, and the folder is made anew.
   base::WriteFileAtomically(folder / key_file, text, base::Outlives::kProgram);
+}
+
+bool HoldsKey(const std::filesystem::path& folder, const std::string& key_file,
+              const std::string& text) {
+  return TextOf(folder / key_file) == text;
 }
 
 void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& to) {

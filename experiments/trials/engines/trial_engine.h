@@ -32,6 +32,9 @@ class TrialEngine {
   // what is in it, a finished result or a checkpoint; any other is cleared first.
   virtual void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
 
+  // Whether the folder has been made ready for this very case, and not been cleared since.
+  virtual bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
+
   // To be run in the folder.
   virtual std::vector<std::string> Command(const std::filesystem::path& folder) = 0;
 
@@ -57,6 +60,10 @@ class TrialEngine {
 // files or not.
 void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
                    const std::string& text);
+
+// Whether that is so.
+bool HoldsKey(const std::filesystem::path& folder, const std::string& key_file,
+              const std::string& text);
 
 // `to` with what `from` holds and nothing else; throws base::Error when it cannot be.
 void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& to);

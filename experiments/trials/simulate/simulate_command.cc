@@ -64,7 +64,7 @@ void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOpt
   const auto& [folder, fresh, quiet] = options;
   RequireOwnFolder(command_case, options);
   if (fresh) CommandEngine::Forget(folder);
-  CommandEngine engine(command_case.engine);
+  CommandEngine engine(command_case.engine, FormerFiles::kKeep);
   engine.Prepare(command_case.heap, folder);
   const bool was_complete = engine.IsComplete(folder);
   TrialOutput output;

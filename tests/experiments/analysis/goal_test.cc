@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 
@@ -9,8 +10,11 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
 #include "experiments/analysis/next/campaign_goal.h"
+#include "experiments/campaign/add_experiment.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/two_experiments.h"
 
 namespace talus::analysis {
 namespace goal_test {
@@ -82,6 +86,28 @@ TEST_F(GoalTest, EndsTheSearchWhenItIsKnownAsWellAsAsked) {
   ASSERT_TRUE(goal.has_value());
   EXPECT_EQ(goal->num_runs, 8);
   EXPECT_EQ(goal->after, static_cast<std::int64_t>(Trials(folder).size()));
+}
+
+// What was known without it is no reason to end the search, and its runs are paid for already.
+TEST_F(GoalTest, ATestThatIsAddedAfterwardsIsSimulated) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
+  ASSERT_TRUE(Last(folder)->reason.has_value());
+  const fs::path file = scratch_.path() / "run_in" / "second.json";
+  std::ofstream(file) << campaign::TwoExperiments::FastLift("23 mg");
+  {
+    campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
+    campaign::AddExperiment(folder, file, {.core_time = 0.3}, console);
+  }
+  EXPECT_FALSE(Last(folder)->reason.has_value());
+  const campaign::CampaignSpec spec = campaign::ReadJointView(folder).spec;
+  EXPECT_EQ(campaign::NextLook(Last(folder), spec),
+            std::min(campaign::NextLook(Last(folder)->after), Last(folder)->after + 16));
+  campaign::CoreTime former(spec);
+  EXPECT_NEAR(spec.budget.core_time.value(),
+              former.OfSearch(Trials(folder)) + Last(folder)->core_time + 0.3, 1e-9);
+  EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
+  EXPECT_GE(std::ranges::count(Trials(folder), 1, &journal::TrialRecord::experiment), 6);
 }
 
 // What the heap leaves open of μ_r stays open whatever is simulated, and so does the density.

@@ -110,7 +110,9 @@ TEST_F(AddExperimentTest, ACampaignThatHasEndedWithItDoesNotSearchOnByItself) {
     auto journal = journal::Journal::Open(journal::JournalPath(folder));
     CampaignSpec spec = LoadSpec(folder);
     *spec.budget.core_time *= 2;
-    journal.SetSpec(journal.Campaign().spec_text, SpecText(spec));
+    journal::CampaignRecord record = journal.Campaign();
+    record.spec_json = SpecText(spec);
+    journal.SetSpec(record);
   }
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(Trials(folder).size(), ended.size());

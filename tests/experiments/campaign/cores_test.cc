@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "experiments/campaign/plan/core_time.h"
+
 namespace talus::campaign {
 namespace cores_test {
 
@@ -37,6 +39,20 @@ TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
   CampaignSpec elsewhere = WithRanks(3, 2, 2);
   elsewhere.runner.kind = RunnerKind::kSlurm;
   EXPECT_FALSE(CoresWarning(elsewhere, 8).has_value());
+}
+
+// The ranks that srun starts are no children of the job's script: it sees srun's own time only.
+TEST(Cores, RanksThatSlurmStartsCountAsLongAsTheyHadTheirCores) {
+  journal::TrialRecord trial;
+  trial.duration_s = 100;
+  trial.cpu_s = 2;
+  CampaignSpec spec = WithRanks(0, 64, 1);
+  EXPECT_EQ(MeasuredCoreTime(trial, spec), 2);
+  spec.runner.kind = RunnerKind::kSlurm;
+  EXPECT_EQ(MeasuredCoreTime(trial, spec), 6400);
+  EXPECT_EQ(CoreTime(spec).OfSearch({trial, trial}), 12800);
+  spec.engine.kind = EngineKind::kTalus;
+  EXPECT_EQ(MeasuredCoreTime(trial, spec), 2);
 }
 
 }  // namespace cores_test

@@ -93,6 +93,11 @@ TEST_F(ReuseTest, TheTrialsOfTheFormerCampaignAreToldFirst) {
   EXPECT_THAT(base::ReadFile(folder / "campaign.log"),
               HasSubstr("first answer, by what was reused: "
                         "sliding_friction"));
+  // The strategy's rule, which counts what was reused, is not to end it before these are simulated.
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  const BudgetOptions more = OpenCampaign(folder, {.add_simulations = 5}, console).spec.budget;
+  EXPECT_EQ(more.simulations, 9);
+  EXPECT_EQ(more.min_simulations, 9 + static_cast<int>(before.size()));
 }
 
 TEST_F(ReuseTest, EqualSpecsAndFoldersGiveEqualBits) {

@@ -25,6 +25,22 @@ TEST_F(SlurmRunnerTest, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
   EXPECT_THAT(finished[1].reason, HasSubstr("no longer known to Slurm"));
 }
 
+// The array was known by its other task, and the accounting was not asked.
+TEST_F(SlurmRunnerTest, ATaskThatSlurmHasForgottenIsLookedUpWhileItsArrayIsKnown) {
+  Put("hold", "");
+  options_.result_delay = 0;
+  options_.max_requeues = 0;
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  runner.Submit(jobs);
+  Put("accounting", "101_0|TIMEOUT\n101_1|COMPLETED\n");
+  Put("queue", "101_1|RUNNING|None\n");
+  const auto finished = Finish(runner, 2, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].id, 1);
+  EXPECT_EQ(finished[0].end, JobEnd::kTimeCap);
+}
+
 TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
   SlurmRunner runner(options_, root_ / "campaign");
   Put("hold_sbatch", "sbatch: error: invalid partition specified: mian");

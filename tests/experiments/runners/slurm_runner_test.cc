@@ -217,6 +217,22 @@ TEST_F(SlurmRunnerTest, AfterASetUpThatFailedTheJobIsSubmittedAnew) {
   EXPECT_TRUE(fs::exists(root_ / "trials/1/ran"));
 }
 
+// All trials had failed and were to be run again; the process ended before it had submitted them.
+TEST_F(SlurmRunnerTest, AForgottenJobIsSubmittedAnewByALaterProcess) {
+  const Job jobs[] = {Shell(1, "exit 3"), Shell(2, "exit 3")};
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    runner.Submit(jobs);
+    ASSERT_EQ(Finish(runner, 2).size(), 2u);
+    runner.Forget(jobs[0]);
+  }
+  SlurmRunner runner(options_, root_ / "campaign");
+  EXPECT_FALSE(runner.Adopt(jobs[0], "101_0"));
+  EXPECT_TRUE(runner.Adopt(jobs[1], "101_1"));
+  runner.Submit({&jobs[0], 1});
+  EXPECT_TRUE(SlurmRunner(options_, root_ / "campaign").Adopt(jobs[0], ""));
+}
+
 // It waited in the queue while the set-up was mended: the script that it was submitted with is old.
 TEST_F(SlurmRunnerTest, AnAdoptedJobWhoseOldSetUpFailsMayRunAgain) {
   Put("hold", "");

@@ -34,6 +34,23 @@ TEST_F(CommandFaultsTest, ATrialIsSimulatedAgainWhereItWasMovedTogetherWithItsTe
   EXPECT_THROW(load(), base::ConfigError);
 }
 
+// `mkdir post` failed at the second attempt, and the trial was recorded as failed.
+TEST_F(CommandFaultsTest, WhatAnInterruptedAttemptHasLeftIsGoneAtTheNext) {
+  Deck("run.sh", "mkdir post; touch heap.csv\n");
+  const fs::path folder = root_ / "trial";
+  CommandEngine engine(options_);
+  engine.Prepare(SmallCase(), folder);
+  fs::create_directories(folder / "post");
+  for (const char* name : {"post/0.dump", "log.lammps", "trial.json", ".process_group"}) {
+    std::ofstream(folder / name) << "x";
+  }
+  engine.Prepare(SmallCase(), folder);
+  for (const char* name : {"case.json", "trial.json", ".process_group", "run.sh"}) {
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  }
+  for (const char* name : {"post", "log.lammps"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+}
+
 // Such a trial succeeded, and its parameters were taken for those of the spec's powder.
 TEST_F(CommandFaultsTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
   const auto output_of = [&](double radius, int count) {

@@ -1,0 +1,166 @@
+#include "experiments/campaign/spec_change.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
+#include "experiments/campaign/add_parameter.h"
+#include "experiments/campaign/earlier_posterior.h"
+#include "experiments/campaign/mended_engine.h"
+#include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/record/stored.h"
+
+namespace talus::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMoved = "moved";  // an event: only where its files lie has changed
+constexpr int kOfAddedParameter = 16;    // simulations of each experiment, where nobody says
+
+// Templates that are not where they were, as after the whole project has been moved: they are
+// looked for beside the spec that is named, or beside the campaign's folder, by the path that the
+// spec's text has.
+void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root,
+                     const fs::path& named, SpecChange& change) {
+  auto& templates = change.spec.engine.command.templates;
+  if (!templates || fs::is_directory(*templates)) return;
+  const nlohmann::json written = base::ParseJson(record.spec_text, record.spec_path).root;
+  const fs::path beside = named.empty() ? root.parent_path() : fs::absolute(named).parent_path();
+  const fs::path moved =
+      (beside / written.at("engine").at("templates").get<std::string>()).lexically_normal();
+  if (!fs::is_directory(moved)) return;
+  templates = moved;
+  change.event = kMoved;
+  change.words = "its templates lie in " + moved.string() + " now";
+}
+
+// What the campaign was given after it began, and the spec's file cannot know of: further tests,
+// and a budget, unless the file's own has been changed since.
+void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& written,
+                      const CampaignSpec& going, CampaignSpec& read) {
+  const auto budget = [](const nlohmann::json& spec) {
+    return spec.value("budget", nlohmann::json());
+  };
+  if (budget(begun_with) == budget(written)) read.budget = going.budget;
+  if (!going.experiments) return;
+  const std::vector<ExperimentSpec>& all = *going.experiments;
+  const std::size_t num_begun =
+      begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
+  std::vector<ExperimentSpec> kept = ExperimentsOf(read);
+  // A file that has been kept in step has them all.
+  if (num_begun >= all.size() || kept.size() != num_begun) return;
+  kept.insert(kept.end(), all.begin() + static_cast<std::ptrdiff_t>(num_begun), all.end());
+  read.experiments = std::move(kept);
+  read.experiment.reset();
+}
+
+// No trial has succeeded with the one before.
+void NoteMendedEngine(SpecChange& change) {
+  change.engine_is_new = true;
+  change.event = "engine";
+  change.words += (change.words.empty() ? "" : ", ") +
+                  std::string("its engine has changed, with which no trial had succeeded");
+}
+
+// The spec as it is to be from now on; says what has changed where that is not allowed.
+SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
+                          const std::vector<journal::TrialRecord>& trials, const fs::path& root,
+                          const ResumeOptions& options) {
+  const bool named = !options.spec.empty();
+  const fs::path path = named ? options.spec : fs::path(record.spec_path);
+  SpecChange change{.spec = {}, .path = {}, .text = record.spec_text, .event = {}, .words = {}};
+  if (named) change.path = fs::absolute(path).lexically_normal().string();
+  if (named || fs::exists(path)) change.text = base::ReadFile(path);
+  if (change.text == record.spec_text) {
+    change.spec = ParseSpecText(record.spec_json);
+    FollowTemplates(record, root, options.spec, change);
+    if (TakeMendedTemplates(trials, change.spec)) NoteMendedEngine(change);
+    return change;
+  }
+  const CampaignSpec begun = ParseSpecText(record.spec_json);
+  const base::JsonFile file = base::ReadJsonFile(path);
+  change.spec = ReadSpecWithPosteriors(file, &begun);
+  // `calibrate --hold-out` is of the campaign and not in the file.
+  if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
+  KeepAddedParameters(begun, change.spec);
+  KeepWhatWasGiven(base::ParseJson(record.spec_text, record.spec_path).root, file.root, begun,
+                   change.spec);
+  auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
+  const bool engine_is_new = AllowMendedEngine(trials, forbidden);
+  if (!forbidden.empty()) {
+    std::string message = path.string() +
+                          ": has changed since the campaign began, in what its trials depend on; "
+                          "undo this, or begin a new campaign:";
+    for (const std::string& what : forbidden) message += "\n  " + what;
+    throw base::ConfigError(message);
+  }
+  change.event = "spec";
+  change.words = "changed in budget, workers or other things that may change";
+  if (engine_is_new) NoteMendedEngine(change);
+  return change;
+}
+
+// [core s] of one more simulation, by what those so far took.
+double UsualCoreTime(const CampaignSpec& spec, const std::vector<journal::TrialRecord>& trials) {
+  CoreTime core_time(spec);
+  const double sum = core_time.OfSearch(trials);
+  const auto num = std::ranges::count_if(trials, IsPaidFor);
+  return num > 0 ? sum / static_cast<double>(num)
+                 : core_time.OfOne(0, spec.coarse_graining.scale_factor);
+}
+
+// A search that has ended is counted in simulations from now on, whatever ended it. One that has
+// not keeps its budget, larger by what so many take.
+void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
+  const std::vector<journal::TrialRecord> trials = journal.Trials();
+  const auto num_search = static_cast<int>(std::ranges::count_if(trials, IsPaidFor));
+  const auto num_told = static_cast<int>(std::ranges::count_if(trials, IsOfSearch));
+  const journal::ProgressRecord progress = journal.Progress();
+  const bool ended = progress.state == "finished" || !progress.stop_json.empty();
+  BudgetOptions& budget = change.spec.budget;
+  const int from = ended ? num_search : std::max(num_search, budget.simulations);
+  if (num_more > BudgetOptions::kMostSimulations - from) {
+    throw base::ConfigError("--add-simulations: " + std::to_string(num_more) +
+                            " more would be above " +
+                            std::to_string(BudgetOptions::kMostSimulations) + " simulations");
+  }
+  if (ended) budget.core_time.reset();
+  if (budget.core_time) *budget.core_time += num_more * UsualCoreTime(change.spec, trials);
+  if (!budget.core_time || budget.simulations > 0) budget.simulations = from + num_more;
+  // The least is counted with what was reused.
+  budget.min_simulations =
+      std::min(BudgetOptions::kMostSimulations, num_told - num_search + from + num_more);
+  if (ended || progress.elapsed_s >= budget.wall_clock.value_or(0)) budget.wall_clock.reset();
+  if (change.event.empty() || change.event == kMoved) change.event = "extend";
+  change.words +=
+      (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
+}
+
+void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
+  for (const std::string& text : search) {
+    const AddedParameter added = ParseAddedParameter(text);
+    change.spec = SpecWith(change.spec, added);
+    change.event = "search";
+    change.words += (change.words.empty() ? "" : ", ") + added.name + " from now on";
+  }
+}
+
+}  // namespace
+
+bool SpecChange::SearchesOn() const { return !event.empty() && event != kMoved; }
+
+SpecChange ChangeOf(journal::Journal& journal, const std::filesystem::path& root,
+                    const ResumeOptions& options) {
+  const journal::CampaignRecord record = journal.Campaign();
+  SpecChange change = SpecToGoOnWith(record, journal.Trials(), root, options);
+  AddParameters(options.search, change);
+  const int num_more = options.add_simulations > 0 || options.search.empty()
+                           ? options.add_simulations
+                           : kOfAddedParameter * static_cast<int>(record.experiments.size());
+  if (num_more > 0) AddSimulations(journal, num_more, change);
+  return change;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,239 @@
+// What becomes of a campaign that is gone on with after it has ended or was ended.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "experiments/campaign/run_cases.h"
+#include "experiments/journal/record_json.h"
+#include "tests/error_in.h"
+#include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/slurm_fixture.h"
+
+namespace talus::campaign {
+namespace going_on_test {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kSmall = R"(, "budget": {"simulations": 10}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 1, "replicates": 2})";
+
+class GoingOnTest : public CampaignFixture {
+ protected:
+  static journal::ProgressRecord Progress(const fs::path& folder) {
+    return journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress();
+  }
+  static CampaignSpec SpecOf(const fs::path& folder) {
+    return ParseSpecText(
+        journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json);
+  }
+  static int NumSearch(const fs::path& folder) {
+    return static_cast<int>(std::ranges::count_if(Trials(folder), IsOfSearch));
+  }
+};
+
+// A queue that has each job already, or has none and takes it; all end at once, in the same way.
+class StubQueue : public runners::Runner {
+ public:
+  StubQueue(bool has_it, runners::JobEnd end) : has_it_(has_it), end_(end) {}
+  int Capacity() const override { return 1; }
+  bool JobsOutliveUs() const override { return true; }
+  std::vector<std::string> Submit(std::span<const runners::Job> jobs) override {
+    log_ += "submit ";
+    ids_.push_back(jobs[0].id);
+    return {"7_0"};
+  }
+  bool Adopt(const runners::Job& job, const std::string&) override {
+    log_ += "adopt ";
+    if (has_it_) ids_.push_back(job.id);
+    return has_it_;
+  }
+  void Forget(const runners::Job&) override { log_ += "forget "; }
+  std::vector<runners::FinishedJob> Wait(double) override {
+    std::vector<runners::FinishedJob> finished;
+    for (const std::int64_t id : std::exchange(ids_, {})) {
+      finished.push_back(
+          {.id = id, .end = end_, .reason = "sbatch: no such partition", .host = {}});
+    }
+    return finished;
+  }
+  void Cancel(std::int64_t) override {}
+  const std::string& log() const { return log_; }
+
+ private:
+  bool has_it_;
+  runners::JobEnd end_;
+  std::vector<std::int64_t> ids_;
+  std::string log_;
+};
+
+class RunCasesTest : public GoingOnTest {
+ protected:
+  // What the queue was asked for one run, whose folder an earlier process may have made ready.
+  std::string LogOf(bool has_it, runners::JobEnd end = runners::JobEnd::kExit) {
+    const FolderCase run{.folder = scratch_.path() / "0001", .rig_case = {}};
+    auto queue = std::make_unique<StubQueue>(has_it, end);
+    const StubQueue& asked = *queue;
+    const CampaignParts parts{.runner = std::move(queue),
+                              .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    RunCases({.count = 1, .at = [&](std::size_t) { return run; }, .time_cap = 60}, parts);
+    return asked.log();
+  }
+};
+
+// Killed before it had noted the job's name, it submitted the job once more. One that has ended
+// without a result is simulated again.
+TEST_F(RunCasesTest, WhatAQueueHasAlreadyIsNotSubmittedTwice) {
+  EXPECT_EQ(LogOf(false), "submit forget ");  // nobody has made the folder ready
+  EXPECT_EQ(LogOf(true), "adopt forget ");
+  EXPECT_EQ(LogOf(false), "adopt submit forget ");
+}
+
+// `talus predict` said that it had left no result.
+TEST_F(RunCasesTest, WhatAQueueRefusesIsSaid) {
+  const auto refused = [&] { LogOf(false, runners::JobEnd::kNotStarted); };
+  EXPECT_THAT(ErrorIn<base::Error>(refused), HasSubstr("sbatch: no such partition"));
+}
+
+// Killed after the images and before campaign.json: there was nothing to resume, and `calibrate`
+// refused the folder.
+TEST_F(GoingOnTest, ABeginningThatWasKilledIsBegunAgain) {
+  const fs::path folder = scratch_.path() / "run";
+  fs::create_directories(folder / "experiment_2");
+  for (const char* name : {"aehp.png", "run_01.png", "campaign.json.tmp7"}) {
+    std::ofstream(folder / name) << "x";
+  }
+  EXPECT_THAT(ErrorIn([&] { Begin(kSmall); }), HasSubstr("holds other files"));  // anybody's
+  std::ofstream(folder / "campaign.lock") << "";
+  Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+}
+
+TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
+  const fs::path folder = Finished(kSmall);
+  const journal::ProgressRecord before = Progress(folder);
+  {
+    const base::InterruptGuard interrupt;
+    Console console(folder / "campaign.log", Console::Output::kQuiet);
+    OpenedCampaign opened = OpenCampaign(folder, {}, console);
+    CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),
+                        .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
+                      std::move(parts), console);
+    std::raise(SIGINT);
+    EXPECT_EQ(campaign.Run(interrupt), CampaignEnd::kInterrupted);
+  }
+  EXPECT_EQ(Progress(folder).state, "finished");
+  EXPECT_EQ(Progress(folder).stop_reason, before.stop_reason);
+  EXPECT_EQ(Progress(folder).result_json, before.result_json);
+}
+
+// The next resume read the first one again, and undid what the other had changed.
+TEST_F(GoingOnTest, AnotherSpecThatIsNamedOnceIsReadFromThenOn) {
+  const fs::path folder = Begin(kSmall);
+  const fs::path former = scratch_.path() / "run_in" / "spec.json";
+  std::string text = base::ReadFile(former);
+  text.replace(text.find("\"simulations\": 10"), 17, "\"simulations\": 11");
+  const fs::path other = scratch_.path() / "run_in" / "other.json";
+  std::ofstream(other) << text;
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  EXPECT_EQ(OpenCampaign(folder, {.spec = other}, console).spec.budget.simulations, 11);
+  EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 11);
+  const auto record = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign();
+  EXPECT_EQ(record.spec_path, other);
+}
+
+TEST_F(GoingOnTest, AnExtensionIsStillThereInAJournalThatIsMadeAnew) {
+  const fs::path folder = Begin(kSmall);
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  EXPECT_EQ(OpenCampaign(folder, {.add_simulations = 5}, console).spec.budget.simulations, 15);
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 15);
+}
+
+// Its last trials counted by an estimate; where they took less, the budget had room again, and what
+// had been confirmed was confirmed anew after them.
+TEST_F(GoingOnTest, ASearchThatIsBeingConfirmedDoesNotGoOnByItself) {
+  const fs::path folder = Begin(R"(, "budget": {"core_time": "1 ms"}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 1, "replicates": 2})");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const std::size_t num_trials = Trials(folder).size();
+  const Stop stop = journal::ParseRecord<Stop>(Progress(folder).stop_json, "stop");
+  EXPECT_EQ(stop.kind, StopKind::kCoreTime);
+  {  // as if it had been killed before its end, and its trials had taken less
+    auto journal = journal::Journal::Open(journal::JournalPath(folder));
+    journal::CampaignRecord record = journal.Campaign();
+    CampaignSpec spec = SpecOf(folder);
+    spec.budget.core_time = 3600;
+    record.spec_json = SpecText(spec);
+    journal.SetSpec(record);
+    journal.SetProgress({.state = "running", .stop_json = Progress(folder).stop_json});
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(Trials(folder).size(), num_trials);
+}
+
+// A budget of core time counted the last attempt only.
+TEST_F(GoingOnTest, ATrialHasTakenWhatAllItsAttemptsTook) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 1}, "workers": 1,
+    "retry_failed": true, "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
+  RunFake(folder, {.fail_once = true, .sleep = 0.2});
+  EXPECT_EQ(Trials(folder).at(0).attempts, 2);
+  EXPECT_GE(Trials(folder).at(0).duration_s, 0.4);
+}
+
+// Two processes would have written into one folder.
+class ToLocalTest : public runners::SlurmRunnerTest {};
+
+TEST_F(ToLocalTest, JobsThatAreStillInTheQueueAreNotRunHereAsWell) {
+  const fs::path folder = root_ / "run";
+  BeginCampaign(WriteFakeSpec(root_ / "run_in", kSmall), folder);
+  EXPECT_THROW(RunFake(folder, {.no_command = true}), base::Error);  // leaves the first one running
+  Put("hold", "");
+  const runners::Job job{.id = 1, .folder = folder / "trials/0001", .command = {"true"}};
+  runners::SlurmRunner(options_, folder).Submit({&job, 1});
+  Put("queue", "101_0|RUNNING|None\n");
+  EXPECT_THAT(ErrorIn([&] { RunFake(folder, {}); }), HasSubstr("1 job of this campaign may still"));
+  Put("queue_is_down", "");
+  EXPECT_THAT(ErrorIn<base::Error>([&] { RunFake(folder, {}); }), HasSubstr("squeue does not say"));
+  fs::remove(root_ / "queue_is_down");
+  Put("queue", "101_0|CANCELLED|None\n");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+}
+
+// As many were added to a budget that had run out, and none was simulated.
+TEST_F(GoingOnTest, WhatAWallClockHasEndedGoesOnWithSoManyMore) {
+  const fs::path folder =
+      Begin(R"(, "budget": {"simulations": 10, "wall_clock": "1 h"}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
+  journal::Journal::Open(journal::JournalPath(folder))
+      .SetProgress({.state = "interrupted", .elapsed_s = 7200});
+  RunFake(folder, {});
+  EXPECT_THAT(Progress(folder).stop_reason, HasSubstr("the time budget of"));
+  EXPECT_EQ(NumSearch(folder), 0);
+  RunFake(folder, {}, {.add_simulations = 3});
+  EXPECT_EQ(NumSearch(folder), 3);
+}
+
+TEST_F(GoingOnTest, ABudgetOfCoreTimeThatIsNotUsedGrowsByWhatSoManyTake) {
+  const fs::path folder = Begin(R"(, "budget": {"core_time": "1 h"}, "workers": 1)");
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  const CampaignSpec more = OpenCampaign(folder, {.add_simulations = 5}, console).spec;
+  EXPECT_GT(more.budget.core_time.value(), 3600);
+  EXPECT_EQ(more.budget.simulations, 0);
+  const CampaignSpec again = OpenCampaign(folder, {.add_simulations = 5}, console).spec;
+  EXPECT_NEAR(*again.budget.core_time - 3600, 2 * (*more.budget.core_time - 3600), 1e-6);
+}
+
+}  // namespace going_on_test
+}  // namespace talus::campaign
