@@ -91,6 +91,45 @@ TEST_P(DrumAngles, AngleFillCircleAndTurningComeBack) {
 }
 INSTANTIATE_TEST_SUITE_P(BothWays, DrumAngles, testing::Values(-50, -20, 5, 33, 60));
 
+// Twelve hundred pixels wide, its edges blurred by 4.5 px, as a camera of many pixels has
+// them.
+TEST(Drum, ALargeBlurredPhotographIsRead) {
+  constexpr int kLarge = 1200;
+  constexpr double kTimes = kLarge / static_cast<double>(kSide), kBlur = 4.5;
+  const auto share_beyond = [](double way) {
+    return 0.5 * std::erfc(-way / (kBlur * std::sqrt(2)));
+  };
+  GrayImage photo{.width = kLarge, .height = kLarge, .pixels = {}};
+  for (int y = 0; y < kLarge; ++y) {
+    for (int x = 0; x < kLarge; ++x) {
+      const double right = x + 0.5 - kTimes * kCenterX, up = kTimes * kCenterY - y - 0.5;
+      const double r = std::hypot(right, up);
+      const double inside = up < -0.2 * kTimes * kRadius ? 25 : 240;
+      const double ring = share_beyond(r - kTimes * (kRadius - 4));
+      const double around = share_beyond(r - kTimes * kRadius);
+      const double level = inside + (15 - inside) * ring + (170 - 15) * around;
+      photo.pixels.push_back(static_cast<std::uint8_t>(level + 0.5));
+    }
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("large", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.map.circle.center_x, kTimes * kCenterX, 1);
+  EXPECT_NEAR(drum.map.circle.center_y, kTimes * kCenterY, 1);
+  EXPECT_NEAR(drum.map.circle.radius, kTimes * kRadius, kBlur);
+}
+
+// Light 72, ring 14 and surroundings 68, in place of 240, 15 and 170.
+TEST(Drum, ADimPhotographIsRead) {
+  GrayImage photo = Draw({.angle = 33 * kDegree});
+  for (std::uint8_t& level : photo.pixels) {
+    const double l = level;
+    const double dim = 14 + (l < 170 ? (l - 15) * 54 / 155 : 54 + (l - 170) * 4 / 70);
+    level = static_cast<std::uint8_t>(dim + 0.5);
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("dim", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.map.circle.radius, kRadius, 0.7);
+  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
+}
+
 // Angles of 32, 33 and 34 degrees: their mean, a standard error of 1/√3, and a surface that moves.
 TEST(Drum, SeriesHasErrors) {
   std::vector<fs::path> photos;
