@@ -138,6 +138,25 @@ TEST(Drum, ADimPhotographIsRead) {
   EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
 }
 
+// A ring of which 0.6 px are below the picture, which is allowed: the axis stays where it is.
+TEST(Drum, OneThatIsCutALittleAtTheBottomKeepsItsAxis) {
+  GrayImage photo = Draw({.angle = 33 * kDegree});
+  photo.height = 287;
+  photo.pixels.resize(static_cast<std::size_t>(kSide * photo.height));
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("low", photo)}, .diameter = 0.084});
+  const Frame frame = DrumProfile(drum).frame;
+  EXPECT_NEAR(frame.baseline - frame.plate_diameter / (2 * frame.pixel_size),
+              drum.map.circle.center_y, 1e-9);
+  EXPECT_GT(frame.baseline, photo.height);
+  base::Problems problems;
+  frame.Validate(problems);
+  EXPECT_TRUE(problems.empty());
+  Frame heap = frame;
+  heap.disc_diameter.reset();
+  heap.Validate(problems);
+  EXPECT_FALSE(problems.empty());
+}
+
 // Angles of 32, 33 and 34 degrees: their mean, a standard error of 1/√3, and a surface that moves.
 TEST(Drum, SeriesHasErrors) {
   std::vector<fs::path> photos;
