@@ -270,8 +270,7 @@ Profile DrumProfile(const MeasuredDrum& drum) {
                             .height = drum.map.image.height,
                             .pixel_size = drum.pixel_size,
                             .center_x = circle.center_x,
-                            .baseline = std::min(circle.center_y + circle.radius,
-                                                 static_cast<double>(drum.map.image.height)),
+                            .baseline = circle.center_y + circle.radius,
                             .plate_diameter = 2 * circle.radius * drum.pixel_size,
                             .disc_diameter = 2 * drum.map.inner_radius * drum.pixel_size}};
   if (drum.turning == Turning::kClockwise) return profile;

@@ -9,13 +9,17 @@
 #include <vector>
 
 #include "base/error.h"
+#include "imaging/light/backlight.h"
 
 namespace talus::imaging {
 namespace {
 
 constexpr int kNumRays = 720;
-constexpr double kLeastStep = 60;       // of an edge [grey levels over kEdge]
-constexpr int kEdge = 3;                // length over which an edge is looked for [px]
+constexpr double kLeastStep = 60;       // of an edge, in a picture of usual contrast [grey levels]
+constexpr double kLeastShare = 0.4;     // of an edge / the picture's contrast, where that is low
+constexpr double kNoise = 16;           // a lower step may be the camera's noise [grey levels]
+constexpr int kShortestEdge = 3;        // length over which an edge is looked for [px]
+constexpr double kEdgeShare = 0.005;    // the same / shorter side: large pictures are blurred more
 constexpr double kOnCircle = 0.01;      // how far a point may lie off the circle / its radius
 constexpr double kLeastOn = 0.5;        // share of the rays whose point lies on it
 constexpr double kMostBeyond = 0.01;    // how far it may reach out of the picture / its radius
@@ -26,8 +30,23 @@ struct Point {
   double y = 0;
 };
 
+// What counts as an edge.
+struct EdgeRule {
+  int length = kShortestEdge;      // [px]
+  double least_step = kLeastStep;  // [grey levels over the length]
+};
+
+EdgeRule RuleFor(const GrayImage& photo) {
+  const TwoClasses classes =
+      SplitByOtsu(std::vector<float>(photo.pixels.begin(), photo.pixels.end()));
+  const double shorter = std::min(photo.width, photo.height);
+  return {
+      .length = std::max(kShortestEdge, static_cast<int>(kEdgeShare * shorter)),
+      .least_step = std::clamp(kLeastShare * (classes.light - classes.dark), kNoise, kLeastStep)};
+}
+
 // The outermost edge along a ray from the middle, where the level is half-way.
-std::optional<Point> OutermostEdge(const GrayImage& photo, double angle) {
+std::optional<Point> OutermostEdge(const GrayImage& photo, double angle, const EdgeRule& edge) {
   const double c = std::cos(angle), s = std::sin(angle);
   const double x0 = photo.width / 2.0, y0 = photo.height / 2.0;
   const auto level = [&](double way) {
@@ -35,13 +54,13 @@ std::optional<Point> OutermostEdge(const GrayImage& photo, double angle) {
         photo.at(static_cast<int>(x0 + way * c), static_cast<int>(y0 + way * s)));
   };
   const double reach = std::min(x0 / std::max(std::abs(c), 1e-9), y0 / std::max(std::abs(s), 1e-9));
-  for (double way = reach - 1; way > kEdge; way -= 1) {
+  for (double way = reach - 1; way > edge.length; way -= 1) {
     const double outside = level(way);
-    const double inside = level(way - kEdge);
-    if (std::abs(inside - outside) < kLeastStep) continue;
+    const double inside = level(way - edge.length);
+    if (std::abs(inside - outside) < edge.least_step) continue;
     const double half = (inside + outside) / 2;
     double at = way;
-    while (at > way - kEdge && (level(at) > half) == (outside > half)) at -= 0.25;
+    while (at > way - edge.length && (level(at) > half) == (outside > half)) at -= 0.25;
     return Point{.x = x0 + at * c, .y = y0 + at * s};
   }
   return std::nullopt;
@@ -85,9 +104,10 @@ void RequireWhole(const DrumCircle& circle, const GrayImage& photo, const std::s
 }  // namespace
 
 DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
+  const EdgeRule edge = RuleFor(photo);
   std::vector<Point> points;
   for (int ray = 0; ray < kNumRays; ++ray) {
-    const auto point = OutermostEdge(photo, 2 * std::numbers::pi * ray / kNumRays);
+    const auto point = OutermostEdge(photo, 2 * std::numbers::pi * ray / kNumRays, edge);
     if (point) points.push_back(*point);
   }
   DrumCircle circle;

@@ -1,6 +1,7 @@
 #include "imaging/drums/drum_surface.h"
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace talus::imaging {
@@ -63,6 +64,22 @@ Measured LineAngle(const std::vector<DrumPoint>& points, double from, double to)
   return {.value = -std::atan((n * sxh - sx * sh) / (n * sxx - sx * sx))};
 }
 
+// Share of a disc below a chord that is `depth` radii below its centre.
+double SegmentShare(double depth) {
+  return (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / std::numbers::pi;
+}
+
+// Of the whole drum, whose ring hides what lies beyond `seen` radii, where powder under a flat
+// surface fills this share of what is seen: the chord that bounds both is as deep in both.
+double WholeFill(double fill_seen, double seen) {
+  double deepest = 1, highest = -1;  // of the chord, in radii of what is seen
+  while (deepest - highest > 1e-9) {
+    const double middle = (deepest + highest) / 2;
+    (SegmentShare(middle) > fill_seen ? highest : deepest) = middle;
+  }
+  return SegmentShare(seen * (deepest + highest) / 2);
+}
+
 }  // namespace
 
 DrumSurface MeasureSurface(const DrumMap& map) {
@@ -86,7 +103,7 @@ DrumSurface MeasureSurface(const DrumMap& map) {
       total += (255 - map.image.at(x, y)) / 255.0;
     }
   }
-  surface.fill = total / pixels;
+  surface.fill = WholeFill(total / pixels, map.inner_radius / map.circle.radius);
   return surface;
 }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "imaging/heap/heap_alone.h"
 #include "imaging/heap/heap_shape.h"
 #include "imaging/heap/outline.h"
 
@@ -56,34 +56,11 @@ Measured Iou(const GrayImage& a, const GrayImage& b) {
                     : Measured{.not_defined = "both heaps are empty"};
 }
 
-// On a table the heap without the grains beside it: what is connected with its middle. Elsewhere
-// the profile itself.
-Profile HeapAlone(const Profile& profile) {
+// On a table the heap without the grains beside it, elsewhere the profile itself: a plate's loose
+// grains count as powder of its area.
+Profile OnItsBase(const Profile& profile) {
   if (!profile.frame.on_table()) return profile;
-  const cv::Mat image(profile.image.height, profile.image.width, CV_8U,
-                      const_cast<std::uint8_t*>(profile.image.pixels.data()));
-  cv::Mat labels, stats, centers;
-  const int count = cv::connectedComponentsWithStats(image < 255, labels, stats, centers, 8);
-  int heap = 0, nearest = profile.image.width;
-  for (int label = 1; label < count; ++label) {
-    const int left = stats.at<int>(label, cv::CC_STAT_LEFT);
-    const int right = left + stats.at<int>(label, cv::CC_STAT_WIDTH);
-    const int middle = static_cast<int>(profile.frame.center_x);
-    const int away = std::max({0, left - middle, middle - right});
-    const bool is_larger =
-        heap == 0 || stats.at<int>(label, cv::CC_STAT_AREA) > stats.at<int>(heap, cv::CC_STAT_AREA);
-    if (away > nearest || (away == nearest && !is_larger)) continue;
-    nearest = away;
-    heap = label;
-  }
-  Profile alone = profile;
-  for (std::size_t i = 0; i < alone.image.pixels.size(); ++i) {
-    const auto at = static_cast<int>(i);
-    if (labels.at<int>(at / alone.image.width, at % alone.image.width) != heap) {
-      alone.image.pixels[i] = 255;
-    }
-  }
-  return alone;
+  return {.image = HeapAlone(profile.image, profile.frame), .frame = profile.frame};
 }
 
 // What the triangle stands on [px] from the left edge of the image.
@@ -106,7 +83,7 @@ Base BaseOf(const Profile& profile, const Outline& outline) {
 
 Measured TriangleAngle(const Profile& whole) {
   if (whole.frame.num_pictures() > 1) return {.not_defined = kFilm};
-  const Profile profile = HeapAlone(whole);
+  const Profile profile = OnItsBase(whole);
   const double area = Nebp(profile.image);
   const Outline outline = FindOutline(profile.image, profile.frame);
   if (!(area > 0) || (profile.frame.on_table() && outline.empty())) {
@@ -118,7 +95,7 @@ Measured TriangleAngle(const Profile& whole) {
 
 Measured CohesiveIndex(const Profile& whole) {
   if (whole.frame.num_pictures() > 1) return {.not_defined = kFilm};
-  const Profile profile = HeapAlone(whole);
+  const Profile profile = OnItsBase(whole);
   const Outline outline = FindOutline(profile.image, profile.frame);
   if (outline.empty()) return {.not_defined = "the heap is empty"};
   double area = 0;

@@ -5,6 +5,11 @@
 #include <cstdint>
 
 namespace talus::imaging {
+namespace {
+
+constexpr double kMostBeyondImage = 0.01;  // of a drum's baseline / diameter
+
+}  // namespace
 
 void Frame::Validate(base::Problems& problems) const {
   problems.Require(width > 0 && width <= 65500, "width_px", width, "must be from 1 to 65500");
@@ -22,7 +27,9 @@ void Frame::Validate(base::Problems& problems) const {
                    pictures.value_or(0), "must be 1 or more, and divide width_px");
   problems.Require(center_x >= 0 && center_x <= width / std::max(1, num_pictures()), "center_x_px",
                    center_x, "must be within the image, of a film within its first picture");
-  problems.Require(baseline >= 1 && baseline <= height, "baseline_px", baseline,
+  // A drum's lowest point may lie a little below its picture (RequireWhole in drum_circle.cc).
+  const double beyond = disc_diameter ? kMostBeyondImage * plate_diameter / pixel_size : 0;  // [px]
+  problems.Require(baseline >= 1 && baseline <= height + beyond, "baseline_px", baseline,
                    "must be within the image, below its first row");
 }
 

@@ -17,7 +17,8 @@ struct Frame {
   int height = 480;              // [px], > 0
   double pixel_size = 0;         // [m], > 0
   double center_x = 0;           // of the plate [px] from the left edge of the image
-  double baseline = 0;           // the plate's top [px] from the top edge of the image
+  double baseline = 0;           // the plate's top [px] from the top edge of the image; with a
+                                 // disc it may lie 1 % of the plate below its lowest row
   double plate_diameter = 0.01;  // [m], > 0
   // In a drum only what lies within this disc about its axis is known, and powder elsewhere is not
   // shown [m], > 0.

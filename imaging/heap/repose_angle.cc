@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "imaging/heap/heap_alone.h"
 #include "imaging/heap/heap_shape.h"
 
 namespace talus::imaging {
@@ -81,9 +82,10 @@ void ReposeOptions::Validate(base::Problems& problems) const {
 ReposeAngles MeasureRepose(const GrayImage& image, const Frame& frame,
                            const ReposeOptions& options) {
   if (frame.num_pictures() > 1) return NoAngles("a film shows another heap in each picture");
-  const Outline outline = FindOutline(image, frame);
+  const GrayImage heap = HeapAlone(image, frame);
+  const Outline outline = FindOutline(heap, frame);
   if (outline.empty()) return NoAngles("the heap is empty");
-  const Outline few = FindOutline(image, frame, kOverhangLevel);
+  const Outline few = FindOutline(heap, frame, kOverhangLevel);
   const Overhang overhang = WorstOverhang(outline, few);
   const double tolerance = options.overhang_tolerance * frame.plate_diameter / frame.pixel_size;
   const HeapShape shape = FindHeapShape(outline);

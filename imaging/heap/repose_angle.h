@@ -42,8 +42,9 @@ struct SideAngles {
 };
 using ReposeAngles = std::array<SideAngles, 3>;  // by method, 1 first
 
-// On the half-intensity outline of an average profile or of one view. A heap that overhangs in
-// more than a tenth of the views of an average has no angle.
+// On the half-intensity outline of an average profile or of one view, of the heap without loose
+// grains beside it (heap_alone.h): one would be taken for the slope's foot. A heap that overhangs
+// in more than a tenth of the views of an average has no angle.
 ReposeAngles MeasureRepose(const GrayImage& image, const Frame& frame,
                            const ReposeOptions& options = {});
 

@@ -186,8 +186,11 @@ GrayImage Negative(const GrayImage& photo) {
 }
 
 // Where the table reaches across the whole picture, with a margin; the height where it does not.
+// A few hot pixels do not make a row another one, and no row of a tilted table that the margin does
+// not cover.
 int FirstTableRow(const GrayImage& photo, PowderLook look) {
-  constexpr int kMargin = 4;  // [px]
+  constexpr int kMargin = 4;          // [px]
+  constexpr double kMostHot = 0.005;  // of a row
   const std::vector<float> levels(photo.pixels.begin(), photo.pixels.end());
   const double middle = SplitByOtsu(levels).middle();
   const auto num_dark = [&](int y) {
@@ -197,7 +200,10 @@ int FirstTableRow(const GrayImage& photo, PowderLook look) {
   };
   const bool bright = look == PowderLook::kBright ||
                       (look == PowderLook::kAuto && num_dark(photo.height - 1) * 2 < photo.width);
-  const auto all = [&](int y) { return num_dark(y) == (bright ? 0 : photo.width); };
+  const auto all = [&](int y) {
+    const int other = bright ? num_dark(y) : photo.width - num_dark(y);
+    return other <= kMostHot * photo.width;
+  };
   int row = photo.height;
   while (row > 0 && all(row - 1)) --row;
   return std::min(row + kMargin, photo.height);

@@ -104,6 +104,7 @@ Heap LargestAbove(const std::vector<double>& above) {
   Heap heap;
   for (int x = 0; x < static_cast<int>(above.size()); ++x) {
     const double height = above[static_cast<std::size_t>(x)];
+    if (std::isnan(height) && x == heap.to) heap.to = x + 1;  // no gap: nothing is known of it
     if (!(height > kAboveLine)) continue;
     if (heap.area == 0 || x > heap.to + kWidestGap) heap = {.from = x, .to = x, .area = 0};
     heap.to = x + 1;
@@ -136,17 +137,16 @@ TableLine TableUnder(const std::vector<double>& outline, const std::string& name
   }
   const Heap heap = LargestAbove(above);
   if (heap.area == 0) ThrowNoTable(name, "nothing stands on the table");
-  // The middle of a column of a tilted heap stands beside its foot.
-  double moment = 0;
+  // The middle of a column of a tilted heap stands beside its foot. A column that has no outline,
+  // as one pixel of the lower border is light, is NaN, and counts as 0: so in this order.
+  double moment = 0, area = 0;
   for (int x = heap.from; x < heap.to; ++x) {
-    const double height = std::max(above[static_cast<std::size_t>(x)], 0.0);
+    const double height = std::max(0.0, above[static_cast<std::size_t>(x)]);
     moment += height * (x + 0.5 - height / 2 * std::sin(tilt));
-  }
-  double area = 0;
-  for (int x = heap.from; x < heap.to; ++x) {
-    area += std::max(above[static_cast<std::size_t>(x)], 0.0);
+    area += height;
   }
   const double center = moment / area;
+  if (!std::isfinite(center)) ThrowNoTable(name, "no middle found of what stands on the table");
   return {.center_x = center,
           .baseline = line.At(center),
           .tilt = tilt,

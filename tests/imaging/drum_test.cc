@@ -84,12 +84,78 @@ TEST_P(DrumAngles, AngleFillCircleAndTurningComeBack) {
   EXPECT_NEAR(drum.map.circle.radius, kRadius, 0.7);
   EXPECT_NEAR(drum.angle.value / kDegree, std::abs(GetParam()), 0.2);
   EXPECT_EQ(drum.turning, angle > 0 ? Turning::kClockwise : Turning::kCounterClockwise);
-  const double depth = 0.2 * kRadius / drum.map.inner_radius;
-  EXPECT_NEAR(drum.surface.fill, Segment(depth), 0.005);
+  EXPECT_NEAR(drum.surface.fill, Segment(0.2), 0.005);
   EXPECT_LT(drum.map.inner_radius, kRadius - 4);  // the ring is left out
   EXPECT_GT(drum.map.inner_radius, kRadius - 8);
 }
 INSTANTIATE_TEST_SUITE_P(BothWays, DrumAngles, testing::Values(-50, -20, 5, 33, 60));
+
+// The share of the whole disc, the ring's included: of what is seen alone it was 0.130 for 0.142,
+// and 0.871 for 0.858, which is what a simulated drum would be filled with.
+TEST(Drum, TheFillIsThatOfTheWholeDrum) {
+  for (const double depth : {0.6, -0.6}) {
+    const MeasuredDrum drum = Measure({.angle = 33 * kDegree, .depth = depth});
+    EXPECT_NEAR(drum.surface.fill, Segment(depth), 0.005);
+  }
+}
+
+// Twelve hundred pixels wide, its edges blurred by 4.5 px, as a camera of many pixels has
+// them.
+TEST(Drum, ALargeBlurredPhotographIsRead) {
+  constexpr int kLarge = 1200;
+  constexpr double kTimes = kLarge / static_cast<double>(kSide), kBlur = 4.5;
+  const auto share_beyond = [](double way) {
+    return 0.5 * std::erfc(-way / (kBlur * std::sqrt(2)));
+  };
+  GrayImage photo{.width = kLarge, .height = kLarge, .pixels = {}};
+  for (int y = 0; y < kLarge; ++y) {
+    for (int x = 0; x < kLarge; ++x) {
+      const double right = x + 0.5 - kTimes * kCenterX, up = kTimes * kCenterY - y - 0.5;
+      const double r = std::hypot(right, up);
+      const double inside = up < -0.2 * kTimes * kRadius ? 25 : 240;
+      const double ring = share_beyond(r - kTimes * (kRadius - 4));
+      const double around = share_beyond(r - kTimes * kRadius);
+      const double level = inside + (15 - inside) * ring + (170 - 15) * around;
+      photo.pixels.push_back(static_cast<std::uint8_t>(level + 0.5));
+    }
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("large", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.map.circle.center_x, kTimes * kCenterX, 1);
+  EXPECT_NEAR(drum.map.circle.center_y, kTimes * kCenterY, 1);
+  EXPECT_NEAR(drum.map.circle.radius, kTimes * kRadius, kBlur);
+}
+
+// Light 72, ring 14 and surroundings 68, in place of 240, 15 and 170.
+TEST(Drum, ADimPhotographIsRead) {
+  GrayImage photo = Draw({.angle = 33 * kDegree});
+  for (std::uint8_t& level : photo.pixels) {
+    const double l = level;
+    const double dim = 14 + (l < 170 ? (l - 15) * 54 / 155 : 54 + (l - 170) * 4 / 70);
+    level = static_cast<std::uint8_t>(dim + 0.5);
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("dim", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.map.circle.radius, kRadius, 0.7);
+  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
+}
+
+// A ring of which 0.6 px are below the picture, which is allowed: the axis stays where it is.
+TEST(Drum, OneThatIsCutALittleAtTheBottomKeepsItsAxis) {
+  GrayImage photo = Draw({.angle = 33 * kDegree});
+  photo.height = 287;
+  photo.pixels.resize(static_cast<std::size_t>(kSide * photo.height));
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("low", photo)}, .diameter = 0.084});
+  const Frame frame = DrumProfile(drum).frame;
+  EXPECT_NEAR(frame.baseline - frame.plate_diameter / (2 * frame.pixel_size),
+              drum.map.circle.center_y, 1e-9);
+  EXPECT_GT(frame.baseline, photo.height);
+  base::Problems problems;
+  frame.Validate(problems);
+  EXPECT_TRUE(problems.empty());
+  Frame heap = frame;
+  heap.disc_diameter.reset();
+  heap.Validate(problems);
+  EXPECT_FALSE(problems.empty());
+}
 
 // Angles of 32, 33 and 34 degrees: their mean, a standard error of 1/√3, and a surface that moves.
 TEST(Drum, SeriesHasErrors) {

@@ -29,17 +29,20 @@ TEST(ImageFile, ColourBecomesLuma) {
   EXPECT_EQ(DecodeGrayImage(EncodePng(red), "red").pixels[0], 76);  // 0.299 × 255
 }
 
-std::string DeepPng(int shift) {
-  const GrayImage ramp = Ramp();
+// 16 bits a sample; all samples of a pixel alike but for alpha, which is full.
+std::string DeepPng(int shift, png_uint_32 format = PNG_FORMAT_LINEAR_Y) {
   std::vector<std::uint16_t> samples;
-  for (const std::uint8_t level : ramp.pixels) {
-    samples.push_back(static_cast<std::uint16_t>(shift == 8 ? level * 257 : level << shift));
+  for (const std::uint8_t level : Ramp().pixels) {
+    const int sample = shift == 8 ? level * 257 : level << shift;
+    samples.insert(samples.end(), (format & PNG_FORMAT_FLAG_COLOR) != 0 ? 3 : 1,
+                   static_cast<std::uint16_t>(sample));
+    if ((format & PNG_FORMAT_FLAG_ALPHA) != 0) samples.push_back(65535);
   }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = 37;
   image.height = 21;
-  image.format = PNG_FORMAT_LINEAR_Y;
+  image.format = format;
   png_alloc_size_t size = 0;
   png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr);
   std::string bytes(size, '\0');
@@ -54,6 +57,20 @@ TEST(ImageFile, TwelveBitsInSixteenAreRecognised) {
   const GrayImage image = DecodeGrayImage(DeepPng(4), "camera");
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     EXPECT_NEAR(image.pixels[i], Ramp().pixels[i], 1);
+  }
+}
+
+// Alpha, 65535 everywhere, was taken for white, and a picture of 10 bits for black.
+TEST(ImageFile, AlphaDoesNotHideHowManyBitsTheCameraHas) {
+  for (const png_uint_32 format :
+       {PNG_FORMAT_LINEAR_RGB_ALPHA, PNG_FORMAT_LINEAR_Y | PNG_FORMAT_FLAG_ALPHA}) {
+    for (const int shift : {2, 4, 8}) {
+      const GrayImage image = DecodeGrayImage(DeepPng(shift, format), "camera");
+      ASSERT_EQ(image.pixels.size(), Ramp().pixels.size());
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        EXPECT_NEAR(image.pixels[i], Ramp().pixels[i], 1) << shift;
+      }
+    }
   }
 }
 

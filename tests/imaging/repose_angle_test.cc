@@ -226,6 +226,30 @@ TEST(NoAngle, OverhangOnOneSide) {
   EXPECT_FALSE(angles[1].mean.defined());
 }
 
+// A triangle of 39.8°, 100 px high, and a disc of 3 px on the plate at its right: one grain made
+// the right side's angles 30.8°, 33.6° and 17.6°. On a table the scale is another, the heap the
+// same.
+TEST(LooseGrain, BesideTheHeapChangesNoAngle) {
+  const GrayImage heap = Silhouette([](double x) { return 100 * (1 - std::abs(x) / 120); });
+  GrayImage grain = heap;
+  for (int y = 270; y < 280; ++y) {
+    for (int x = 330; x < 345; ++x) {
+      if (std::hypot(x + 0.5 - 337, y + 0.5 - 277) < 3) grain.at(x, y) = 0;
+    }
+  }
+  for (const bool table : {false, true}) {
+    Frame frame = SmallFrame();
+    frame.table = table;
+    const ReposeAngles alone = MeasureRepose(heap, frame);
+    const ReposeAngles beside = MeasureRepose(grain, frame);
+    for (std::size_t method = 0; method < alone.size(); ++method) {
+      EXPECT_NEAR(alone[method].right.value / kDegree, 39.8, 0.3);
+      EXPECT_EQ(beside[method].left.value, alone[method].left.value);
+      EXPECT_EQ(beside[method].right.value, alone[method].right.value);
+    }
+  }
+}
+
 // Three views of 29°, 30°, 31°: their scatter is 1°, its standard error 1/√3.
 TEST(StandardError, IsTheScatterOfThePartsOverRootN) {
   std::vector<GrayImage> views;

@@ -65,6 +65,29 @@ TEST(TableTest, AHeapOnATableIsMeasuredByARuler) {
   }
 }
 
+// Light pixels in the picture's lowest row, under the heap, made centre and baseline no numbers,
+// and with them the frame of all photographs; under a deep table one was refused as no table.
+TEST(TableTest, HotPixelsInTheLowestRowChangeNothing) {
+  ExperimentOptions options;
+  options.photos = EmptyFolder("hot_pixel");
+  options.scale = "30,200 - 30,100 = 10 mm";
+  for (const auto& [depth, num_hot] : {std::pair{40, 1}, std::pair{3, 1}, std::pair{3, 5}}) {
+    Scene scene = TableScene();
+    scene.tilt = 0;
+    scene.height = static_cast<int>(scene.baseline) + depth;
+    GrayImage photo = HeapOnTable(scene);
+    WritePng(options.photos / Name(1, 0), photo);
+    const Experiment usual = MeasureExperiment(options);
+    for (int x = 200; x < 200 + num_hot; ++x) photo.at(x, photo.height - 1) = 255;
+    WritePng(options.photos / Name(1, 0), photo);
+    const Experiment hot = MeasureExperiment(options);
+    const PlatePose& place = hot.runs[0].views[0].plate;
+    EXPECT_NEAR(place.center_x, usual.runs[0].views[0].plate.center_x, 2) << depth;
+    EXPECT_NEAR(place.baseline, usual.runs[0].views[0].plate.baseline, 0.2) << depth;
+    EXPECT_NEAR(Nebp(hot.aehp.image), Nebp(usual.aehp.image), 0.01 * Nebp(usual.aehp.image));
+  }
+}
+
 ExperimentOptions OnTable(const fs::path& folder) {
   ExperimentOptions options;
   options.photos = folder;

@@ -1,5 +1,6 @@
 // The heap that powder makes when it runs out of a funnel at a fixed height onto a plate, with a
-// rim or without. The plate's top is z = 0.
+// rim or without. The plate's top is z = 0 in the scene. A photograph shows rim and plate as one
+// dark body, so that in images, and for height and angles, the rim's top is.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -86,10 +87,11 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   static double TestTime(const Case& c, double) { return MakePour(c, VesselOf(c)).Duration(); }
 
-  // what has not fallen off the plate
+  // what has not fallen off the plate, the layer below the rim's top included
   std::vector<engine::Particle> Grains() const override {
     std::vector<engine::Particle> heap = simulation().Particles();
     std::erase_if(heap, [](const engine::Particle& p) { return !IsOnPlate(p); });
+    for (engine::Particle& p : heap) p.position.z -= rig_case().rig.funnel_heap.rim_height;
     return heap;
   }
 

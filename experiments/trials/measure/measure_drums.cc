@@ -82,7 +82,7 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
   } else {
     print << "  no dynamic angle: " << drum.angle.not_defined << '\n';
   }
-  print << "  fill " << drum.surface.fill << " of what counts\n";
+  print << "  fill " << drum.surface.fill << " of the drum\n";
   if (num_photos > 1) print << "  surface sd " << drum.surface_sd * 1e3 << " mm\n";
 }
 

@@ -7,12 +7,21 @@
 namespace talus::imaging {
 namespace {
 
+bool HasAlpha(int channels) { return channels % 2 == 0; }
+
+// What one pixel's samples are at their most.
+struct Full {
+  double white = 255;
+  double alpha = 255;  // of all the sample's bits, however many of them the camera has
+};
+
 // Samples of one pixel as a grey level, 0 … 255.
-std::uint8_t GrayLevel(const std::uint16_t* s, int channels, double white) {
+std::uint8_t GrayLevel(const std::uint16_t* s, int channels, const Full& full) {
   const bool color = channels >= 3;
+  const double white = full.white;
   double luma = color ? (0.299 * s[0] + 0.587 * s[1] + 0.114 * s[2]) / white : s[0] / white;
-  if (channels % 2 == 0) {
-    const double alpha = s[channels - 1] / white;
+  if (HasAlpha(channels)) {
+    const double alpha = s[channels - 1] / full.alpha;
     luma = luma * alpha + 1 - alpha;
   }
   return static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
@@ -21,13 +30,18 @@ std::uint8_t GrayLevel(const std::uint16_t* s, int channels, double white) {
 }  // namespace
 
 void RawImage::AddRow(std::span<const std::uint16_t> row) {
+  const auto stride = static_cast<std::size_t>(channels);
   if (bits == 16 && white == 0) {
-    for (const std::uint16_t sample : row) largest = std::max(largest, sample);
+    const std::size_t num_levels = HasAlpha(channels) ? stride - 1 : stride;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i % stride < num_levels) largest = std::max(largest, row[i]);
+    }
     return;
   }
   Reserve();
-  for (std::size_t i = 0; i < row.size(); i += static_cast<std::size_t>(channels)) {
-    gray.push_back(GrayLevel(&row[i], channels, bits == 8 ? 255 : white));
+  const Full full = bits == 8 ? Full{} : Full{.white = white, .alpha = 65535};
+  for (std::size_t i = 0; i < row.size(); i += stride) {
+    gray.push_back(GrayLevel(&row[i], channels, full));
   }
 }
 

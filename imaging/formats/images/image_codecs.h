@@ -26,7 +26,7 @@ struct RawImage {
   int orientation = kUpright;           // how the camera was held, as EXIF numbers it
   std::optional<std::int64_t> taken{};  // ExifTime
   double white = 0;                     // sample of 16 bits that is white; 0: not known
-  std::uint16_t largest = 0;            // sample of 16 bits
+  std::uint16_t largest = 0;            // sample of 16 bits that is not alpha
   std::vector<std::uint8_t> gray{};     // empty where white is not known
 
   // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
