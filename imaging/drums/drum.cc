@@ -66,11 +66,26 @@ double InnerRadius(const GrayImage& photo, const DrumCircle& circle, const TwoCl
   return r - kBeyondRing * circle.radius;
 }
 
+// The outermost circle of a photograph and the drum's inner radius within it.
+struct DrumPlace {
+  DrumCircle circle;
+  double drum_radius = 0;  // [px]
+};
+
+DrumPlace PlaceOf(const DrumCircle& circle, const DrumPhotos& options) {
+  const double share = options.diameter / options.circle_diameter.value_or(options.diameter);
+  return {.circle = circle, .drum_radius = share * circle.radius};
+}
+
 // Powder and light become 0 and 255; what the ring hides is white.
-DrumMap MapOf(const GrayImage& photo, const DrumCircle& circle, const std::string& name) {
+DrumMap MapOf(const GrayImage& photo, const DrumPlace& place, const std::string& name) {
+  const DrumCircle& circle = place.circle;
   const TwoClasses levels = Levels(photo, circle, name);
-  DrumMap map{.image = photo, .circle = circle, .inner_radius = 0};
-  map.inner_radius = InnerRadius(photo, circle, levels);
+  DrumMap map{.image = photo,
+              .circle = circle,
+              .drum_radius = place.drum_radius,
+              .inner_radius = InnerRadius(photo, circle, levels)};
+  map.inner_radius = std::min(map.inner_radius, (1 - kBeyondRing) * map.drum_radius);
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {
       const double share = (photo.at(x, y) - levels.dark) / (levels.light - levels.dark);
@@ -192,7 +207,7 @@ double DarkBelow(const GrayImage& photo, const DrumMap& map, double middle) {
     for (int x = 0; x < photo.width; ++x) {
       const double radius = Radius(map.circle, x, y);
       const double down = y + 0.5 - map.circle.center_y;
-      if (radius < map.inner_radius || radius > 0.95 * map.circle.radius ||
+      if (radius < map.inner_radius || radius > 0.95 * map.drum_radius ||
           down < std::cos(std::numbers::pi / 6) * radius) {
         continue;
       }
@@ -237,6 +252,9 @@ void DrumPhotos::Validate(base::Problems& problems) const {
   problems.Require(!photos.empty(), "photos", "are missing");
   problems.Require(diameter > 0 && diameter <= 5, "diameter", diameter,
                    "must be positive and at most 5 m; write \"84 mm\" for 84 mm");
+  problems.Require(!circle_diameter || (*circle_diameter >= diameter && *circle_diameter <= 5),
+                   "circle_diameter", circle_diameter.value_or(0),
+                   "must be the drum's diameter or more, as its ring lies around it");
 }
 
 MeasuredDrum MeasureDrum(const DrumPhotos& options) {
@@ -247,16 +265,16 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   MeasuredDrum drum;
   const std::string name = options.photos.front().string();
   const GrayImage mean = MeanImage(photos.images);
-  const DrumCircle circle = FindDrumCircle(mean, name);
-  drum.map = MapOf(mean, circle, name);
+  const DrumPlace place = PlaceOf(FindDrumCircle(mean, name), options);
+  drum.map = MapOf(mean, place, name);
   RequirePowderBelow(mean, drum.map, name);
-  drum.pixel_size = options.diameter / (2 * circle.radius);
+  drum.pixel_size = options.diameter / (2 * place.drum_radius);
   drum.surface = MeasureSurface(drum.map);
   ReadTurning(options, drum);
   if (photos.images.size() < 2) return drum;
   std::vector<DrumSurface> each;
   for (const GrayImage& image : photos.images)
-    each.push_back(MeasureSurface(MapOf(image, circle, name)));
+    each.push_back(MeasureSurface(MapOf(image, place, name)));
   drum.angle.standard_error = AngleError(each);
   drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
   return drum;
@@ -270,8 +288,8 @@ Profile DrumProfile(const MeasuredDrum& drum) {
                             .height = drum.map.image.height,
                             .pixel_size = drum.pixel_size,
                             .center_x = circle.center_x,
-                            .baseline = circle.center_y + circle.radius,
-                            .plate_diameter = 2 * circle.radius * drum.pixel_size,
+                            .baseline = circle.center_y + drum.map.drum_radius,
+                            .plate_diameter = 2 * drum.map.drum_radius * drum.pixel_size,
                             .disc_diameter = 2 * drum.map.inner_radius * drum.pixel_size}};
   if (drum.turning == Turning::kClockwise) return profile;
   profile.frame.center_x = width - circle.center_x;

@@ -22,8 +22,10 @@ enum class Turning { kClockwise, kCounterClockwise };
 // One series, or its average, of one drum.
 struct DrumPhotos {
   std::vector<std::filesystem::path> photos;
-  double diameter = 0;               // of the drum inside [m], > 0
-  std::optional<Turning> turning{};  // read from the picture without it
+  double diameter = 0;                      // of the drum inside [m], > 0
+  std::optional<double> circle_diameter{};  // of the outermost circle that is seen, the ring's
+                                            // outside [m], >= diameter; without it the diameter
+  std::optional<Turning> turning{};         // read from the picture without it
   void Validate(base::Problems& problems) const;
 };
 

@@ -103,7 +103,7 @@ DrumSurface MeasureSurface(const DrumMap& map) {
       total += (255 - map.image.at(x, y)) / 255.0;
     }
   }
-  surface.fill = WholeFill(total / pixels, map.inner_radius / map.circle.radius);
+  surface.fill = WholeFill(total / pixels, map.inner_radius / map.drum_radius);
   return surface;
 }
 

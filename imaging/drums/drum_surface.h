@@ -18,8 +18,9 @@ namespace talus::imaging {
 // radius is not known, and 255.
 struct DrumMap {
   GrayImage image;
-  DrumCircle circle;        // of the drum
-  double inner_radius = 0;  // within it the ring hides nothing [px], below the circle's
+  DrumCircle circle;        // the outermost
+  double drum_radius = 0;   // of the drum inside [px], at most the circle's
+  double inner_radius = 0;  // within it the ring hides nothing [px], below the drum's
 };
 
 struct DrumPoint {

@@ -65,6 +65,7 @@ campaign::CampaignSpec SpecWith(const campaign::JointView& view, const TestCandi
   campaign::ExperimentSpec made = spec.experiments->front();
   made.images = {};
   made.turning.reset();
+  made.circle_diameter.reset();
   if (campaign::HasFill(made)) made.mass.reset();
   spec.experiments->clear();
   if (!view.record.experiments.empty()) spec.experiments = campaign::ExperimentsOf(view.spec);

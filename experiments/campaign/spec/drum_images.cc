@@ -12,7 +12,10 @@ namespace talus::campaign {
 namespace {
 
 imaging::MeasuredDrum MeasureDrumOf(const ExperimentSpec& e) {
-  imaging::DrumPhotos drum{.photos = {}, .diameter = e.images.plate_diameter, .turning = e.turning};
+  imaging::DrumPhotos drum{.photos = {},
+                           .diameter = e.images.plate_diameter,
+                           .circle_diameter = e.circle_diameter,
+                           .turning = e.turning};
   if (e.images.photos.empty()) {
     drum.photos = {e.images.map};
   } else {
@@ -30,6 +33,12 @@ constexpr double kPlannedFill = 0.5;
 
 bool AreThere(const ExperimentSpec& e) {
   return std::filesystem::exists(e.images.photos.empty() ? e.images.map : e.images.photos);
+}
+
+// Whether the circle that is given can be that of a ring around the drum.
+bool IsAroundDrum(const ExperimentSpec& e) {
+  const double drum = e.rig->drum.diameter;
+  return !e.circle_diameter || (*e.circle_diameter >= drum && *e.circle_diameter <= 2 * drum);
 }
 
 // Photographs are then made binary, too.
@@ -63,8 +72,12 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
   const std::string prefix = place.empty() ? "" : place + ".";
   if (!ShowsDrum(e)) {
     problems.Require(!e.turning, prefix + "turning", "is of a drum's photographs: remove it");
+    problems.Require(!e.circle_diameter, prefix + "circle_diameter",
+                     "is of a drum's photographs: remove it");
     return;
   }
+  problems.Require(IsAroundDrum(e), prefix + "circle_diameter", e.circle_diameter.value_or(0),
+                   "must be from the rig's diameter to twice that: it is the outside of the ring");
   const imaging::ExperimentOptions& images = e.images;
   problems.Require(
       !images.film, prefix + "film",
@@ -121,7 +134,7 @@ void SetDrumFills(CampaignSpec& spec) {
   if (spec.parameters && spec.parameters->fill) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!ShowsDrum(all[i]) || all[i].mass || HasFill(all[i])) continue;
+    if (!ShowsDrum(all[i]) || all[i].mass || HasFill(all[i]) || !IsAroundDrum(all[i])) continue;
     rigs::RigOptions rig = *all[i].rig;
     rig.drum.fill = AreThere(all[i]) ? MeasureDrumOf(all[i]).surface.fill : kPlannedFill;
     (spec.experiment ? spec.rig : (*spec.experiments)[i].rig) = std::move(rig);

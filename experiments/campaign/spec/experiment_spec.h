@@ -30,6 +30,8 @@ struct ExperimentSpec {
   std::optional<rigs::FillingRule> filling{};            // default: the campaign's
   std::optional<double> mass{};                          // filled [kg], > 0; default: the powder's
   std::optional<imaging::Turning> turning{};  // of a drum's photographs; default: as they show it
+  std::optional<double> circle_diameter{};    // of a drum's photographs: the ring's outside [m], >=
+                                              // the rig's diameter, which is the default
   MeasuredNumbers numbers;
   double weight = 1;  // power of its likelihood, > 0
 
@@ -47,6 +49,10 @@ struct ExperimentSpec {
     visit("turning", self.turning,
           {.doc = "how a drum's photographs show it turn: clockwise carries the powder up on the "
                   "left; default: read from the picture"});
+    visit("circle_diameter", self.circle_diameter,
+          {.dimension = base::Dimension::kLength,
+           .doc = "of the outermost circle on a drum's photographs, the outside of its ring; "
+                  "default: the rig's diameter"});
     MeasuredNumbers::Visit(self.numbers, visit);
     visit(
         "weight", self.weight,

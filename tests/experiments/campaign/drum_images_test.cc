@@ -100,6 +100,16 @@ TEST_F(DrumImages, ASearchedFillIsTheMassOfATrial) {
   EXPECT_NEAR(alone.powder.mass, expected, 1e-12);
 }
 
+// The picture's outermost circle is the ring's outside: the drum is 92 of its 95 px wide.
+TEST_F(DrumImages, TheCirclesDiameterIsTheScale) {
+  ExperimentSpec e = ExperimentsOf(Read())[0];
+  e.circle_diameter = 0.084 * kRadius / (kRadius - kRing);
+  const imaging::Frame frame = MeasureImages(e).aehp.frame;
+  EXPECT_NEAR(frame.pixel_size, 0.042 / (kRadius - kRing), 0.005 * frame.pixel_size);
+  EXPECT_NEAR(frame.plate_diameter, 0.084, 1e-12);
+  EXPECT_NEAR(frame.baseline, kSide / 2.0 + kRadius - kRing, 1);
+}
+
 // Mirrored, the drum that turns the other way shows what the first shows.
 TEST_F(DrumImages, ProfilesTurnAsTheRigDoesAndKnowTheDiscOnly) {
   const std::vector<ExperimentSpec> all = ExperimentsOf(Read());
@@ -135,6 +145,10 @@ TEST_F(DrumImages, PowderInAnyPictureIsWhatIsDarkerThanTheThreshold) {
 TEST_F(DrumImages, ErrorsSayWhatToDo) {
   EXPECT_THAT(ErrorOf(R"(, "turning": "clockwise")"), HasSubstr("turns the other way"));
   EXPECT_EQ(ErrorOf(R"(, "turning": "counter-clockwise")"), "");
+  EXPECT_THAT(
+      ErrorOf(R"(, "circle_diameter": "80 mm")"),
+      HasSubstr("experiments[1].circle_diameter: is 0.08, must be from the rig's diameter"));
+  EXPECT_EQ(ErrorOf(R"(, "circle_diameter": "87 mm")"), "");
   EXPECT_THAT(ErrorOf(R"(, "pixel_size": "0.5 mm")"), HasSubstr("which are of heaps"));
   EXPECT_THAT(ErrorOf(R"(, "mass": 0)"), HasSubstr("experiments[1].mass: is 0, must be positive"));
   EXPECT_EQ(ErrorOf(R"(, "cohesive_index": {"values": ["1 mm", "1.2 mm"]})"), "");
