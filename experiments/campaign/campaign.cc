@@ -234,8 +234,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (job.duration > 0) trial.duration_s += job.duration;  // with its earlier attempts
   if (job.cpu_time > 0) trial.cpu_s += job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;
-  if (job.end ==
-      runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
+  if (job.end == runners::JobEnd::kNotStarted) {  // the set-up's fault: every other would fail
     throw base::Error("trial " + std::to_string(trial.id) +
                       " could not be started: " + FailureText(job, folder_.trial(trial.id)) +
                       "; mend this, and `talus resume` goes on with the same trial");
@@ -249,6 +248,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
 }
 
 bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job) {
+  parts_.runner->Forget(JobOf(trial));  // whose time is counted
   if (++reruns_[trial.id] > kMostReruns) return false;
   journal_.AddEvent("rerun", trial.id, job.reason);
   journal_.Restart({&trial, 1});

@@ -15,6 +15,7 @@ namespace {
 
 using campaign::Answer;
 using campaign::ConfirmedAtTarget;
+using campaign::ConfirmedOf;
 using campaign::Meets;
 using campaign::ResultConfirmed;
 using campaign::ResultStanding;
@@ -81,10 +82,12 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
     row.simulated =
         ShortText(standing->predicted) + " " + answer.objective_unit + " predicted, not confirmed";
   }
-  row.judgement = answer.confirmed.empty()
-                      ? "not confirmed by a fresh seed"
-                      : "simulated again at scale factor " +
-                            base::ShortNumber(answer.confirmed.front().scale_factor) + " only";
+  row.judgement = "not confirmed by a fresh seed";
+  if (ConfirmedOf(answer, record.name) != nullptr && !answer.confirmed.empty() &&
+      answer.confirmed.front().scale_factor != answer.conditions.scale_factor) {
+    row.judgement = "simulated again at scale factor " +
+                    base::ShortNumber(answer.confirmed.front().scale_factor) + " only";
+  }
   return row;
 }
 

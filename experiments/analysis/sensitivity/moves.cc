@@ -110,6 +110,21 @@ void AddPowder(const campaign::JointView& view, const rigs::Case& c, std::vector
                    .placeholders = {"grains", "mass", "num_grains"}});
 }
 
+std::string ProblemsOf(const std::string& what, const rigs::Case& rig_case) {
+  base::Problems problems(what, {});
+  base::TreeValidator(problems).Check(rig_case);
+  if (problems.empty()) rigs::ValidateCase(rig_case, problems);
+  return problems.Text();
+}
+
+// The filling that it does not have, where its rig takes that one: a drum is filled densely only.
+void FillOtherwise(rigs::Case& c) {
+  const bool is_dense = c.filling.kind == rigs::FillingKind::kDense;
+  rigs::Case other = c;
+  other.filling = {.kind = is_dense ? rigs::FillingKind::kPour : rigs::FillingKind::kDense};
+  if (ProblemsOf("filling", other).empty()) c = std::move(other);
+}
+
 void AddHandling(const rigs::Case& c, std::vector<Move>& moves) {
   constexpr double kFaster = 1.5;
   if (c.rig.kind == rigs::RigKind::kLiftedTube) {
@@ -124,16 +139,14 @@ void AddHandling(const rigs::Case& c, std::vector<Move>& moves) {
                          },
                      .placeholders = {"lift_velocity", "lifted_time", "end_time"}});
   }
-  // In each experiment the other one than its own.
-  const auto other = [](rigs::FillingKind kind) {
-    return kind == rigs::FillingKind::kDense ? rigs::FillingKind::kPour : rigs::FillingKind::kDense;
-  };
+  const rigs::FillingKind from = c.filling.kind;
+  rigs::Case other = c;
+  FillOtherwise(other);
+  if (other.filling.kind == from) return;
   moves.push_back({.name = "filling",
-                   .from = std::string(base::NameOf(c.filling.kind)),
-                   .to = std::string(base::NameOf(other(c.filling.kind))),
-                   .apply = [other](rigs::Case& moved) {
-                     moved.filling = {.kind = other(moved.filling.kind)};
-                   }});
+                   .from = std::string(base::NameOf(from)),
+                   .to = std::string(base::NameOf(other.filling.kind)),
+                   .apply = FillOtherwise});
 }
 
 // The other of two choices of a contact law.
@@ -245,10 +258,7 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
 
 std::string WhyNotMoved(const Move& move, rigs::Case rig_case) {
   move.apply(rig_case);
-  base::Problems problems(move.name + " " + move.to, {});
-  base::TreeValidator(problems).Check(rig_case);
-  if (problems.empty()) rigs::ValidateCase(rig_case, problems);
-  return problems.Text();
+  return ProblemsOf(move.name + " " + move.to, rig_case);
 }
 
 }  // namespace talus::analysis

@@ -94,6 +94,19 @@ class Study {
                             base::Joined(levels, ", ", text));
   }
 
+  // As of the first experiment that it changes.
+  static Move MoveOfAny(const JointView& view, const std::vector<rigs::Case>& experiments,
+                        const std::string& name, const std::string& value) {
+    for (std::size_t i = 0; i + 1 < experiments.size(); ++i) {
+      try {
+        return MoveTo(view, experiments[i], name, value);
+      } catch (const base::ConfigError&) {
+        continue;  // another may have another value, or take it
+      }
+    }
+    return MoveTo(view, experiments.back(), name, value);
+  }
+
   static std::vector<Move> MovesOf(const JointView& view, const SensitivityOptions& options,
                                    const SensitivitySetting& setting) {
     std::vector<rigs::Case> experiments;
@@ -101,7 +114,7 @@ class Study {
     if (options.moves.empty()) return UsualMoves(view, experiments);
     std::vector<Move> moves;
     for (const auto& [name, value] : options.moves) {
-      moves.push_back(MoveTo(view, experiments.front(), name, value));
+      moves.push_back(MoveOfAny(view, experiments, name, value));
     }
     return moves;
   }

@@ -9,6 +9,9 @@
 namespace talus::campaign {
 namespace {
 
+// A nuisance counts by share. Of less than that the cube root's normal is none any more: a pull of
+// 0 would score 3 of 0.02 degrees.
+constexpr double kFewestDegrees = 0.5;
 constexpr int kDraws = 400;  // among which a least misfit is looked for
 
 // The normal score of a chi-squared variable of `freedom` degrees.
@@ -50,7 +53,8 @@ Agreement AgreementOf(const JointView& view) {
     most = pull;
     agreement.odd = agreement.alone.back().experiments.front();
   }
-  if (freedom > 0) agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
+  if (freedom >= kFewestDegrees)
+    agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
   return agreement;
 }
 

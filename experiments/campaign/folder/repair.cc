@@ -50,12 +50,13 @@ void PutAside(const std::filesystem::path& journal) {
   }
 }
 
-// One that is there without any was left by a beginning that was killed, of another spec perhaps.
-void KeepImage(const std::filesystem::path& path, const std::string& png) {
-  if (png.empty()) {
-    std::filesystem::remove(path);
-  } else {
+// At the beginning, one that is there without any was left by another that was killed, of another
+// spec perhaps; later it is the user's.
+void KeepImage(const std::filesystem::path& path, const std::string& png, bool is_beginning) {
+  if (!png.empty()) {
     base::WriteFileAtomically(path, png);
+  } else if (is_beginning) {
+    std::filesystem::remove(path);
   }
 }
 
@@ -94,12 +95,13 @@ std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
 }  // namespace
 
 void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& record) {
+  const bool is_beginning = !std::filesystem::exists(folder.campaign());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     const journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
     std::filesystem::create_directories(place);
-    KeepImage(place / kAehp, experiment.aehp_png);
-    KeepImage(place / kAehpSd, experiment.aehp_sd_png);
+    KeepImage(place / kAehp, experiment.aehp_png, is_beginning);
+    KeepImage(place / kAehpSd, experiment.aehp_sd_png, is_beginning);
     for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
       base::WriteFileAtomically(place / RunFile(r), experiment.runs[r].png);
     }

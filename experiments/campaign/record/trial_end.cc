@@ -25,7 +25,8 @@ void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
   trial.reason = output.note;
   trial.num_steps = output.num_steps;
   trial.num_particles = output.num_particles;
-  if (!(trial.cpu_s > 0)) trial.cpu_s = output.cpu_time;  // it had ended in an earlier process
+  // Where it had ended in an earlier process, what is known is of earlier attempts.
+  trial.cpu_s = std::max(trial.cpu_s, output.cpu_time);
 }
 
 std::optional<std::string> MissingNumber(const Reference& reference,

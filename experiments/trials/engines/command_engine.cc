@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -17,10 +16,8 @@
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/case_text.h"
-#include "experiments/rigs/lifted_tube/masses.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/observable.h"
-#include "experiments/rigs/phased/repose.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
@@ -28,6 +25,7 @@
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/engines/grain_check.h"
+#include "experiments/trials/engines/tube_numbers.h"
 #include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -56,45 +54,9 @@ struct Measured {
   std::string doubt{};  // of its grains
 };
 
-journal::MetricRecord RecordOf(const rigs::Reading& reading) {
-  const std::string name = rigs::MetricName(reading.observable);
-  return {.name = name,
-          .value = reading.value,
-          .unit = rigs::UnitOfObservable(name),
-          .undefined = reading.undefined};
-}
-
-std::vector<engine::Particle> ParticlesOf(const std::vector<base::Sphere>& spheres) {
-  std::vector<engine::Particle> particles(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    particles[i].position = spheres[i].position;
-    particles[i].radius = spheres[i].radius;
-  }
-  return particles;
-}
-
-// What our own tube measures of such a heap. The mass that is filled in is the case's, whatever the
-// other engine's grains come to.
-std::vector<journal::MetricRecord> NumbersOf(const rigs::Case& rig_case, double plate,
-                                             const std::vector<base::Sphere>& heap) {
-  double volume = 0, height = 0, diameters = 0;
-  for (const base::Sphere& s : heap) {
-    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
-    height = std::max(height, s.position.z + s.radius);
-    diameters += 2 * s.radius;
-  }
-  const double on_plate = volume * rig_case.powder.material.density;
-  const double filled = std::max(rig_case.powder.mass, on_plate);
-  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
-  std::vector<journal::MetricRecord> numbers{RecordOf({rigs::Observable::kMassOnPlate, on_plate}),
-                                             RecordOf({rigs::Observable::kMassFallen, fallen}),
-                                             RecordOf({rigs::Observable::kHeight, height})};
-  const double mean = diameters / static_cast<double>(heap.size());
-  for (const rigs::Reading& reading :
-       rigs::ReposeReadings(ParticlesOf(heap), {.diameter = plate, .grain_diameter = mean})) {
-    numbers.push_back(RecordOf(reading));
-  }
-  return numbers;
+// A rim's top is where the image of a heap begins, as in our own rig.
+double RimOf(const rigs::Case& rig_case) {
+  return rig_case.rig.kind == rigs::RigKind::kFunnelHeap ? rig_case.rig.funnel_heap.rim_height : 0;
 }
 
 Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
@@ -112,7 +74,8 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   if (doubt && doubt->is_unit_slip) {
     throw base::Error("left " + file.filename().string() + " with " + doubt->text);
   }
-  const auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
+  auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
+  for (base::Sphere& sphere : heap) sphere.position.z -= RimOf(rig_case);
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
                       " spheres in " + file.filename().string() +
@@ -135,7 +98,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     base::WriteFileAtomically(folder / "heap.vtp", engine::VtpOf(ParticlesOf(heap), 0),
                               Outlives::kProgram);
   }
-  if (on_plate) measured.scalars = NumbersOf(rig_case, plate, heap);
+  if (on_plate) measured.scalars = TubeNumbersOf(rig_case, plate, heap);
   return measured;
 }
 

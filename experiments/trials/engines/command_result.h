@@ -19,8 +19,8 @@ std::filesystem::path FindResult(const CommandOptions& engine, const std::filesy
 // Takes away what an earlier attempt has left under that name.
 void RemoveResults(const CommandOptions& engine, const std::filesystem::path& folder);
 
-// Takes away what an attempt that did not end has left under any name: a command may not bear it,
-// `mkdir post` for one. Hidden files are the runner's, and stay.
+// Takes away what an attempt that did not end has left under any name: a command may fail on it,
+// such as `mkdir post`. Hidden files are the runner's, and stay.
 void RemoveFormer(const std::filesystem::path& folder);
 
 // Whether a file of this name, relative to the trial's folder, would be taken for the result.

@@ -210,10 +210,13 @@ class Fit : public testing::Test {
     ResultConfirmed heap{.name = "heap", .num_trials = 2, .sad_mm2 = 0.6};
     heap.profile_sad_mm2 = 0.5;
     heap.over_floor = 0.714;
-    const ResultConfirmed tapped{
-        .name = "tapped",
-        .num_trials = 2,
-        .scalars = {{.name = "tapped_density_kg_per_m3", .num_trials = 2, .mean = 1500}}};
+    const ResultConfirmed tapped{.name = "tapped",
+                                 .num_trials = 2,
+                                 .scalars = {{.name = "tapped_density_kg_per_m3",
+                                              .num_trials = 2,
+                                              .mean = 1500,
+                                              .standard_error = 0.1,
+                                              .degrees = 1}}};
     result_.confirmed.resize(1);
     result_.confirmed[0].experiments = {heap, tapped};
   }
@@ -229,7 +232,7 @@ TEST_F(Fit, IsSaidOfEachMeasurementAndInASentence) {
   EXPECT_EQ(rows[0].judgement, "0.714 times as far as the runs are from each other");
   EXPECT_EQ(rows[0].meets, Meets::kYes);
   EXPECT_EQ(rows[1].simulated, "1500 kg/m³ as the mean of 2 simulations");
-  EXPECT_EQ(rows[1].judgement, "5 standard errors of the measurement away");
+  EXPECT_EQ(rows[1].judgement, "5 standard errors of the measurement and the simulations away");
   EXPECT_EQ(rows[1].meets, Meets::kNo);
   EXPECT_EQ(analysis::FitSentence(rows),
             "With these values simulations give the shape of \"heap\" within the errors of "

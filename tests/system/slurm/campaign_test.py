@@ -20,8 +20,8 @@ import time
 talus, source = sys.argv[1], pathlib.Path(sys.argv[2])
 cluster = source / "tests/system/slurm/one_node_cluster"
 # A cone of spheres whose height follows the parameters: an engine that takes a few milliseconds.
-# It waits while there is a file `hold` beside the campaign.
-DECK = """echo run >>runs
+# It waits while there is a file `hold` beside the campaign, where it notes each run of a trial.
+DECK = """echo run >>../../../runs_$(basename "$PWD")
 echo $$ >pid
 while [ -e ../../../hold ]; do sleep 0.1; done
 awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} -v seed={{ seed }} 'BEGIN {
@@ -130,7 +130,7 @@ def start_held(folder, out, *arguments):
     (folder / "hold").touch()
     log = open(folder / "log.txt", "a")
     process = subprocess.Popen([talus, *map(str, arguments)], stdout=log, stderr=log)
-    wait_for(lambda: len(list(out.glob("trials/*/runs"))) == 2)
+    wait_for(lambda: len(list(out.parent.glob("runs_*"))) == 2)
     return process
 
 
@@ -164,7 +164,7 @@ def run_twice(root, name, interrupt, runner):
     interrupt(process, out / "trials")
     (folder / "hold").unlink()
     run("resume", out)
-    runs = [(out / f"trials/{trial:04}/runs").read_text() for trial in range(1, 7)]
+    runs = [(folder / f"runs_{trial:04}").read_text() for trial in range(1, 7)]
     assert runs == 2 * ["run\nrun\n"] + 4 * ["run\n"], (name, runs)
     return table(out)
 
@@ -242,7 +242,7 @@ def main(root):
     for name in ("unbroken", "killed"):
         got = table(root / name / "out")
         assert got == expected, "\n".join(map(str, [name, *set(got) ^ set(expected)]))
-        runs = [file.read_text() for file in (root / name / "out/trials").glob("*/runs")]
+        runs = [file.read_text() for file in (root / name).glob("runs_*")]
         assert len(runs) == 24 and set(runs) == {"run\n"}, runs
     for got in (lost, dropped):
         assert got == expected[:6], "\n".join(map(str, set(got) ^ set(expected[:6])))

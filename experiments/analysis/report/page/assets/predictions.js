@@ -48,7 +48,7 @@ function predictionCard(p) {
         {title: "Parameters, sd"}, {title: "Single run, sd"}, {title: "Parameters' share of the variance"},
         {title: "Told by", text: true}, {title: "Measured", text: true}],
       p.numbers.map((n) => n.mean === null ? [titleOf(n), "–", "–", "–", "–", "–", "–", "–"] : [titleOf(n), formatUnit(n.mean, n.unit),
-        format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
+        n.low === null ? "–" : format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
         formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), toldBy(n), measuredThere(n)])),
     pictures.length ? element("div", {class: "grid two"}, pictures) : null);
 }

@@ -1,0 +1,55 @@
+#include "experiments/trials/engines/tube_numbers.h"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include "experiments/rigs/lifted_tube/masses.h"
+#include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/phased/repose.h"
+
+namespace talus::trials {
+namespace {
+
+journal::MetricRecord RecordOf(const rigs::Reading& reading) {
+  const std::string name = rigs::MetricName(reading.observable);
+  return {.name = name,
+          .value = reading.value,
+          .unit = rigs::UnitOfObservable(name),
+          .undefined = reading.undefined};
+}
+
+}  // namespace
+
+std::vector<engine::Particle> ParticlesOf(const std::vector<base::Sphere>& spheres) {
+  std::vector<engine::Particle> particles(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    particles[i].position = spheres[i].position;
+    particles[i].radius = spheres[i].radius;
+  }
+  return particles;
+}
+
+std::vector<journal::MetricRecord> TubeNumbersOf(const rigs::Case& rig_case, double plate,
+                                                 const std::vector<base::Sphere>& heap) {
+  double volume = 0, height = 0, diameters = 0;
+  for (const base::Sphere& s : heap) {
+    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
+    height = std::max(height, s.position.z + s.radius);
+    diameters += 2 * s.radius;
+  }
+  const double on_plate = volume * rig_case.powder.material.density;
+  const double filled = std::max(rig_case.powder.mass, on_plate);
+  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
+  std::vector<journal::MetricRecord> numbers{RecordOf({rigs::Observable::kMassOnPlate, on_plate}),
+                                             RecordOf({rigs::Observable::kMassFallen, fallen}),
+                                             RecordOf({rigs::Observable::kHeight, height})};
+  const double mean = diameters / static_cast<double>(heap.size());
+  for (const rigs::Reading& reading :
+       rigs::ReposeReadings(ParticlesOf(heap), {.diameter = plate, .grain_diameter = mean})) {
+    numbers.push_back(RecordOf(reading));
+  }
+  return numbers;
+}
+
+}  // namespace talus::trials
