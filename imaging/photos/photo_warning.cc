@@ -50,8 +50,9 @@ std::string Reason(const PhotoWarning& warning) {
              " photographs look lit from the front, the others from behind; say which with "
              "\"powder\" (--powder)";
     case PhotoDoubt::kHiddenTop:
-      return "powder hides the plate's top in every photograph: the baseline is known to about a "
-             "pixel";
+      return "powder hides the plate's top in every photograph: the baseline may be as much too "
+             "low "
+             "as powder hangs over the rim; brush the rim clean, or give \"frame\" (--frame)";
     case PhotoDoubt::kBeyondPicture:
       return Percent(warning.value) +
              " of the part of the table that counts lies beyond the picture, so that powder there "

@@ -15,6 +15,7 @@ namespace talus::campaign {
 namespace {
 
 constexpr double kContradicts = 3;       // standard deviations of a prior
+constexpr double kPulled = 1;            // of them, from which on a prior may be in the way
 constexpr double kSurprise = 2;          // standard deviations that are no luck any more
 constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
 constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
@@ -66,7 +67,7 @@ std::optional<std::string> HeldByItsPrior(const Answer& answer) {
     }
     farthest = &p;
   }
-  if (farthest == nullptr) return std::nullopt;
+  if (farthest == nullptr || std::abs(farthest->prior->offset) < kPulled) return std::nullopt;
   return farthest->name;
 }
 

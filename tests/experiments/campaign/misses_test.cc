@@ -112,6 +112,19 @@ TEST(Misses, AnImageThatTheSetMissesIsSaid) {
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
 }
 
+// A prior may keep the answer from where a set would fit, where the measurements pull against it.
+TEST(Misses, APriorIsSuspectWhereItIsPulledAt) {
+  Answer answer = ConfirmedAt(4);
+  answer.experiments[0].has_image = false;
+  answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54, .standard_error = 0}};
+  answer.parameters = {{.name = "friction", .prior = ResultPrior{.offset = -0.3}}};
+  ASSERT_THAT(MissAlarms(answer), SizeIs(1));
+  EXPECT_FALSE(MissAlarms(answer)[0].parameter);
+  answer.parameters[0].prior->offset = -1.6;
+  EXPECT_EQ(MissAlarms(answer)[0].parameter, "friction");
+}
+
 // A small search confirms 2.7 noise floors. Law and plate are blamed where nothing speaks against
 // the search alone.
 class MissedImage : public testing::Test {
