@@ -20,6 +20,7 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -101,9 +102,9 @@ void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const 
 void FindSensitivityWithin(double share, const std::filesystem::path& folder,
                            const TellOptions& tell) {
   const campaign::JointView view = campaign::ReadJointView(folder);
-  analysis::SensitivityOptions options{
-      .most_replicates = analysis::kFirstReplicates,
-      .parts = campaign::MakeParts(view.spec, analysis::SensitivityFolder(view.folder.root))};
+  const std::filesystem::path place = analysis::SensitivityFolder(view.folder.root);
+  analysis::SensitivityOptions options{.most_replicates = analysis::kFirstReplicates,
+                                       .parts = campaign::MakeParts(view.spec, place)};
   const double takes = analysis::FirstCoreTime(view, options);
   const double allowed = share * campaign::CoreTime(view.spec).OfSearch(view.trials);
   if (takes > allowed) {
@@ -114,6 +115,8 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
     return;
   }
   options.most_followed_core_time = allowed - takes;
+  std::filesystem::create_directories(place);
+  const campaign::CampaignLock lock(place);  // `talus sensitivity` may run beside it
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);
   if (tell.json) {
