@@ -66,14 +66,14 @@ struct ScalarRecord {
   std::string name;  // of the metric that trials are measured by: "mass_fallen_kg"
   double value = 0;
   double standard_error = 0;  // of the value, > 0
-  // Of freedom that the error has, one fewer than the values that it is of; 0: it is stated, and
+  // Degrees of freedom that the error has, one fewer than the values it is of; 0: it is stated, and
   // counts as exact.
   int degrees = 0;
 
   static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
   TALUS_FIELDS(name, value, standard_error, degrees);
 
-  // As of a normal value.
+  // The error that a normal value would have (base/student_factor.h).
   double NormalError() const { return base::NormalError(standard_error, degrees); }
 };
 

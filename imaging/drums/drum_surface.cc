@@ -69,8 +69,8 @@ double SegmentShare(double depth) {
   return (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / std::numbers::pi;
 }
 
-// Of the whole drum, whose ring hides what lies beyond `seen` radii, where powder under a flat
-// surface fills this share of what is seen: the chord that bounds both is as deep in both.
+// The share of the whole drum, whose ring hides what lies beyond `seen` radii, where powder under a
+// flat surface fills this share of what is seen: the chord that bounds both is as deep in both.
 double WholeFill(double fill_seen, double seen) {
   double deepest = 1, highest = -1;  // of the chord, in radii of what is seen
   while (deepest - highest > 1e-9) {

@@ -94,7 +94,7 @@ class Study {
                             base::Joined(levels, ", ", text));
   }
 
-  // As of the first experiment that it changes.
+  // The move, as the first experiment has it that it changes.
   static Move MoveOfAny(const JointView& view, const std::vector<rigs::Case>& experiments,
                         const std::string& name, const std::string& value) {
     for (std::size_t i = 0; i + 1 < experiments.size(); ++i) {

@@ -53,8 +53,8 @@ Agreement AgreementOf(const JointView& view) {
     most = pull;
     agreement.odd = agreement.alone.back().experiments.front();
   }
-  if (freedom >= kFewestDegrees)
-    agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
+  if (freedom < kFewestDegrees) return agreement;
+  agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
   return agreement;
 }
 

@@ -8,9 +8,8 @@
 // numbers) and d that of parameters which the data move
 // (optimizer/posterior/sample_statistics.h). Tests of fewer outputs than that meet themselves
 // somewhere, and tell only what is over; where that is less than half a degree there is no tension.
-// Each test may fit
-// well enough where it stands and still pull elsewhere: two misfits that are no surprise by
-// themselves can be one together.
+// Each test may fit well enough where it stands and still pull elsewhere: two misfits that are no
+// surprise by themselves can be one together.
 #pragma once
 
 #include <string>

@@ -12,8 +12,8 @@ namespace talus::campaign {
 
 // Processor time of a trial that has ended [core seconds]; 0 where it is not known.
 double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores);
-// Of a campaign's own. Another engine's ranks that `srun` starts are no children of the job's
-// script, which cannot measure them: in Slurm they count as long as the job had its cores.
+// That of a campaign's trial. Another engine's ranks that `srun` starts are no children of the
+// job's script, which cannot measure them: in Slurm they count as long as the job had its cores.
 double MeasuredCoreTime(const journal::TrialRecord& trial, const CampaignSpec& spec);
 
 class CoreTime {

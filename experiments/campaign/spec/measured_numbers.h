@@ -30,7 +30,7 @@ struct MeasuredNumber {
     const double scatter = base::SampleOf(*values).StandardError();
     return IsAlike() ? rigs::kYesNoError / std::sqrt(static_cast<double>(values->size())) : scatter;
   }
-  // Of freedom that the error has; 0: it is stated.
+  // How many degrees of freedom the error has; 0: it is stated.
   int Degrees() const {
     return values && values->size() > 1 && !IsAlike() ? static_cast<int>(values->size()) - 1 : 0;
   }
