@@ -51,8 +51,7 @@ std::string Reason(const PhotoWarning& warning) {
              "\"powder\" (--powder)";
     case PhotoDoubt::kHiddenTop:
       return "powder hides the plate's top in every photograph: the baseline may be as much too "
-             "low "
-             "as powder hangs over the rim; brush the rim clean, or give \"frame\" (--frame)";
+             "low as powder hangs over the rim; brush the rim clean, or give \"frame\" (--frame)";
     case PhotoDoubt::kBeyondPicture:
       return Percent(warning.value) +
              " of the part of the table that counts lies beyond the picture, so that powder there "

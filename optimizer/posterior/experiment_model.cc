@@ -13,6 +13,13 @@ double CompressionSlope(const ScalarTarget& target) {
   return 1 / std::sqrt(scale * scale + target.value * target.value);
 }
 
+// A compressed number's median and sd as the number itself has them.
+Moments InOwnUnit(const ScalarTarget& target, const surrogate::Predictions& compressed) {
+  const double scale = CompressionScale(target);
+  return {.mean = scale * compressed.mean.array().sinh(),
+          .sd = scale * compressed.mean.array().cosh() * compressed.variance.array().sqrt()};
+}
+
 constexpr double kOfMany = 1.2;  // SurrogateCaution of many evaluations
 
 // The outputs tell of the same few parameters, and a surrogate that is unsure of one is unsure of
@@ -243,9 +250,7 @@ std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) con
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(s);
     const surrogate::Predictions at = outputs_.output(output).PredictAll(points);
-    const double scale = CompressionScale(scalars[s]);
-    all.push_back({.mean = scale * at.mean.array().sinh(),
-                   .sd = scale * at.mean.array().cosh() * at.variance.array().sqrt()});
+    all.push_back(InOwnUnit(scalars[s], at));
   }
   return all;
 }
@@ -254,9 +259,9 @@ std::vector<double> ExperimentModel::ScalarNoise(const Eigen::VectorXd& x) const
   std::vector<double> noise;
   for (const ScalarTarget& scalar : setup_.target->scalars) {
     const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(noise.size());
-    const double mean = outputs_.output(output).PredictAll(x.transpose()).mean[0];
-    noise.push_back(CompressionScale(scalar) * std::cosh(mean) *
-                    std::sqrt(outputs_.TargetNoise(output)));
+    surrogate::Predictions at = outputs_.output(output).PredictAll(x.transpose());
+    at.variance.setConstant(outputs_.TargetNoise(output));
+    noise.push_back(InOwnUnit(scalar, at).sd[0]);
   }
   return noise;
 }

@@ -83,8 +83,7 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
         ShortText(standing->predicted) + " " + answer.objective_unit + " predicted, not confirmed";
   }
   row.judgement = "not confirmed by a fresh seed";
-  if (ConfirmedOf(answer, record.name) != nullptr && !answer.confirmed.empty() &&
-      answer.confirmed.front().scale_factor != answer.conditions.scale_factor) {
+  if (confirmed == nullptr && ConfirmedOf(answer, record.name) != nullptr) {
     row.judgement = "simulated again at scale factor " +
                     base::ShortNumber(answer.confirmed.front().scale_factor) + " only";
   }

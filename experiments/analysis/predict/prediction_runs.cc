@@ -63,6 +63,10 @@ PredictedNumber Describe(std::string name, const DrawValues& values, const Sprea
   return number;
 }
 
+// How much farther a mean is from another run than from one that it is of: `squares`, below 1, is
+// the sum of the squares of its runs' shares, 1/n of n equal ones.
+double ToAnother(double squares) { return std::sqrt((1 + squares) / (1 - squares)); }
+
 struct Weighted {
   double value = 0;
   double weight = 0;
@@ -247,9 +251,7 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
     const auto n = static_cast<double>(runs.size());
     for (const imaging::GrayImage& run : runs) {
       all.push_back({run, weights_[d] / n});
-      // The mean has the run in it, and is so much nearer to it than to another one.
-      const double another = std::sqrt((n + 1) / std::max(n - 1, 1.0));
-      if (n > 1) own.push_back({sad(run, means.back()) * another, weights_[d] / n});
+      if (n > 1) own.push_back({sad(run, means.back()) * ToAnother(1 / n), weights_[d] / n});
     }
     const double distance = sad(measured.image, means.back());
     if (!(distance < nearest)) continue;
@@ -258,15 +260,16 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
   }
   if (all.empty()) return std::nullopt;
   const imaging::GrayImage mean = WeightedMean(means, weights);
-  // As with `own`: this mean has every run in it.
-  double total = 0, squares = 0;
-  for (const SeenRun& run : all) total += run.weight;
-  for (const SeenRun& run : all) squares += std::pow(run.weight / total, 2);
-  const double another = std::sqrt((1 + squares) / std::max(1 - squares, 1e-9));
-  std::vector<Weighted> spread;
-  for (const SeenRun& run : all) spread.push_back({sad(run.image, mean) * another, run.weight});
   image.sad_mm2 = sad(measured.image, mean);
-  if (all.size() > 1) image.sad_90_mm2 = Quantile90(spread);
+  if (all.size() > 1) {
+    double total = 0, squares = 0;
+    for (const SeenRun& run : all) total += run.weight;
+    for (const SeenRun& run : all) squares += std::pow(run.weight / total, 2);
+    const double another = ToAnother(squares);
+    std::vector<Weighted> spread;
+    for (const SeenRun& run : all) spread.push_back({sad(run.image, mean) * another, run.weight});
+    image.sad_90_mm2 = Quantile90(spread);
+  }
   image.is_inside = image.sad_mm2 <= image.sad_90_mm2;
   image.nearest_sad_mm2 = nearest;
   if (!own.empty()) image.nearest_sad_90_mm2 = Quantile90(own);

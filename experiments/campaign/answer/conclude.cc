@@ -105,6 +105,10 @@ base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidat
 void AddStandardErrors(Planner& planner, const Eigen::VectorXd& recommended,
                        const std::vector<Candidate>& simulated, double target, Answer& result) {
   const std::string_view sad_metric = journal::InfoOf(journal::Objective::kSad).metric;
+  std::vector<std::vector<double>> noise;  // of each experiment's numbers
+  for (std::size_t e = 0; e < result.experiments.size(); ++e) {
+    noise.push_back(planner.NumberNoise(recommended, static_cast<int>(e)));
+  }
   for (ResultCandidate& candidate : result.confirmed) {
     for (std::size_t e = 0; e < candidate.experiments.size(); ++e) {
       ResultConfirmed& confirmed = candidate.experiments[e];
@@ -116,15 +120,14 @@ void AddStandardErrors(Planner& planner, const Eigen::VectorXd& recommended,
           confirmed.sad_standard_error = scatter.StandardError(confirmed.num_trials);
         }
       }
-      const std::vector<double> noise = planner.NumberNoise(recommended, index);
       for (std::size_t s = 0; s < confirmed.scalars.size(); ++s) {
         ResultScalar& scalar = confirmed.scalars[s];
         const auto scatter = ScatterOf(planner, simulated, index, scalar.name);
         if (scalar.num_trials == 0) continue;
         scalar.standard_error = scatter.StandardError(scalar.num_trials);
         scalar.degrees = scatter.degrees;
-        if (scatter.degrees > 0 || noise.empty()) continue;
-        scalar.standard_error = noise[s] * std::pow(candidate.scale_factor / target, 1.5) /
+        if (scatter.degrees > 0 || noise[e].empty()) continue;
+        scalar.standard_error = noise[e][s] * std::pow(candidate.scale_factor / target, 1.5) /
                                 std::sqrt(scalar.num_trials);
       }
     }
