@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kContradicts = 3;       // standard deviations of a prior
 constexpr double kPulled = 1;            // of them, from which on a prior may be in the way
+constexpr double kNarrow = 1.0 / 3;      // of the searched range: such a prior holds without a pull
 constexpr double kSurprise = 2;          // standard deviations that are no luck any more
 constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
 constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
@@ -56,18 +57,26 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
                .noise_floor = experiment.noise_floor};
 }
 
-// The parameter that the posterior has moved farthest from its prior, in its standard deviations: a
-// narrow prior may keep it from where a set would fit.
+// A prior may keep the answer from where a set would fit: one that the answer pulls at, or a narrow
+// one, which heavy tails give in to so that nothing is pulled.
+bool MayHold(const ResultParameter& p) {
+  if (!p.prior) return false;
+  return std::abs(p.prior->offset) >= kPulled ||
+         p.prior->high - p.prior->low < kNarrow * (p.searched_high - p.searched_low);
+}
+
+// The parameter among those that the posterior has moved farthest, in the prior's standard
+// deviations.
 std::optional<std::string> HeldByItsPrior(const Answer& answer) {
   const ResultParameter* farthest = nullptr;
   for (const ResultParameter& p : answer.parameters) {
-    if (!p.prior) continue;
+    if (!MayHold(p)) continue;
     if (farthest != nullptr && std::abs(p.prior->offset) <= std::abs(farthest->prior->offset)) {
       continue;
     }
     farthest = &p;
   }
-  if (farthest == nullptr || std::abs(farthest->prior->offset) < kPulled) return std::nullopt;
+  if (farthest == nullptr) return std::nullopt;
   return farthest->name;
 }
 

@@ -112,16 +112,22 @@ TEST(Misses, AnImageThatTheSetMissesIsSaid) {
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
 }
 
-// A prior may keep the answer from where a set would fit, where the measurements pull against it.
-TEST(Misses, APriorIsSuspectWhereItIsPulledAt) {
+// A prior may keep the answer from where a set would fit: where the measurements pull against it,
+// and where it is narrow.
+TEST(Misses, APriorIsSuspectWhereItIsPulledAtOrNarrow) {
   Answer answer = ConfirmedAt(4);
   answer.experiments[0].has_image = false;
   answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
   HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54, .standard_error = 0}};
-  answer.parameters = {{.name = "friction", .prior = ResultPrior{.offset = -0.3}}};
+  answer.parameters = {{.name = "friction",
+                        .searched_low = 0.1,
+                        .searched_high = 0.9,
+                        .prior = ResultPrior{.low = 0.2, .high = 0.8, .offset = -0.3}}};
   ASSERT_THAT(MissAlarms(answer), SizeIs(1));
   EXPECT_FALSE(MissAlarms(answer)[0].parameter);
   answer.parameters[0].prior->offset = -1.6;
+  EXPECT_EQ(MissAlarms(answer)[0].parameter, "friction");
+  answer.parameters[0].prior = ResultPrior{.low = 0.4, .high = 0.6, .offset = -0.3};
   EXPECT_EQ(MissAlarms(answer)[0].parameter, "friction");
 }
 
