@@ -114,7 +114,8 @@ class FakeEngine : public trials::TrialEngine {
     const int num_pictures = rig_case.frame ? rigs::ProfileFrameOf(rig_case).num_pictures() : 1;
     imaging::WritePng(folder / "drawn.png", DrawFilm(m.sliding_friction, rolling, seed,
                                                      num_pictures, options_.film_grows));
-    std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
+    std::string script;
+    if (options_.sleep > 0) script += "sleep " + std::to_string(options_.sleep) + "\n";
     if (std::stoi(folder.filename()) % 3 + 1 == options_.slow_third) script += "sleep 0.1\n";
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
       script = "sleep 3600\n";
@@ -134,14 +135,15 @@ class FakeEngine : public trials::TrialEngine {
     }
     if (options_.disk_full) script += "echo heap.png: No space left on device >&2\nexit 1\n";
     if (options_.vanish) script += "rm -r \"$PWD\"\n";
-    std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
+    if (!script.empty()) std::ofstream(folder / "run.sh") << script << "exec mv drawn.png profile.png\n";
   }
   bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override {
     return trials::HoldsKey(folder, "case.json", rigs::CaseText(rig_case));
   }
-  std::vector<std::string> Command(const std::filesystem::path&) override {
+  std::vector<std::string> Command(const std::filesystem::path& folder) override {
     if (options_.no_command) return {"talus-no-such-program"};
-    return {"sh", "run.sh"};
+    if (std::filesystem::exists(folder / "run.sh")) return {"sh", "run.sh"};
+    return {"mv", "drawn.png", "profile.png"};
   }
   bool IsComplete(const std::filesystem::path& folder) override {
     return std::filesystem::exists(folder / "profile.png");
