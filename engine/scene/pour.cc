@@ -96,13 +96,13 @@ void PourSpec::Validate(base::Problems& problems) const {
   problems.Require(base::IsFinite(mouth), "mouth", "must be finite");
 }
 
-double BeverlooRate(const PourPlan& plan) {
+double BeverlooRate(const PourPlan& plan, double scale_factor) {
   double cubes = 0, fourths = 0;
   for (const double r : plan.radii) {
     cubes += r * r * r;
     fourths += r * r * r * r;
   }
-  const double mean = 2 * fourths / cubes;
+  const double mean = 2 * fourths / cubes / scale_factor;
   const double free = std::max(plan.mouth_diameter - 1.4 * mean, 0.2 * plan.mouth_diameter);
   return 0.58 * kBulk * plan.density * std::sqrt(base::Norm(plan.gravity)) * std::pow(free, 2.5);
 }

@@ -79,8 +79,9 @@ struct PourPlan {
   std::int64_t first_id = 0;  // the grain of radii[k] has first_id + k
 };
 
-double BeverlooRate(const PourPlan& plan);  // [kg/s]
-double StreamSpeed(const PourPlan& plan);   // at the mouth [m/s]
+// (F1) [kg/s]. Grains that stand for `scale_factor` times smaller ones come at the rate of those.
+double BeverlooRate(const PourPlan& plan, double scale_factor = 1);
+double StreamSpeed(const PourPlan& plan);  // at the mouth, (F2) [m/s]
 
 struct PourState {
   std::int64_t num_poured = 0;

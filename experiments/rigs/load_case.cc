@@ -52,7 +52,8 @@ void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems)
                "lets grains sink " + base::ShortNumber(share) +
                    " of their radius into each other or into a wall, above the " +
                    base::ShortNumber(kMaxImpactShare) + " that holds; raise youngs_modulus " +
-                   base::ShortNumber(ratio) + " times, lower drop_height, or fill with kind dense");
+                   base::ShortNumber(ratio) +
+                   " times, lower drop_height or rate, or fill with kind dense");
 }
 
 // A bed that falls comes down on its floor as its lowest grains do, or harder. From much higher

@@ -7,6 +7,10 @@
 
 namespace talus::optimizer {
 
+// Noise sd of one heap at the scale factor `to` over that at `from`. Heaps have N ∝ f⁻³ grains, and
+// a mean over N of them scatters as N^(-1/2).
+inline double NoiseRatio(double to, double from) { return std::pow(to / from, 1.5); }
+
 class Levels {
  public:
   // `scale_factors` distinct, in any order; `target` <= all of them, 0 for the least.
@@ -24,9 +28,8 @@ class Levels {
   // Level of a scale factor; the nearest one where it is none of them.
   int LevelOf(double factor) const;
 
-  // Noise sd of one heap at the target over that at `level`. Heaps have N ∝ f⁻³ grains, and a mean
-  // over N of them scatters as N^(-1/2).
-  double NoiseAtTarget(int level) const { return std::pow(target_ / factor(level), 1.5); }
+  // Noise sd of one heap at the target over that at `level`.
+  double NoiseAtTarget(int level) const { return NoiseRatio(target_, factor(level)); }
 
  private:
   std::vector<double> factors_;  // coarsest first

@@ -34,7 +34,7 @@ class NextFixture : public campaign::CampaignFixture {
     return RankNext(view, options);
   }
   static campaign::CampaignParts Parts(const campaign::JointView& view) {
-    return {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+    return {.runner = campaign::MakeDrawnRunner(view.spec, view.folder.root),
             .engine = std::make_unique<campaign::FakeEngine>(kSharp)};
   }
   std::filesystem::path Taps() const {

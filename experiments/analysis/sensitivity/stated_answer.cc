@@ -24,17 +24,18 @@ void StatedAnswer::Compare(const Foretold& foretold, FixedMove& move) const {
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
-    move.answer.push_back(
-        {.parameter = p.name,
-         .from = p.ToNative(point[k]),
-         .to = p.ToNative(found.point[k]),
-         .standard_error = (p.ToNative(std::min(1.0, found.point[k] + error[k])) -
-                            p.ToNative(std::max(0.0, found.point[k] - error[k]))) /
-                           2,
-         .low = p.ToNative(found.credible[i].low),
-         .high = p.ToNative(found.credible[i].high),
-         .half_ranges = (found.point[k] - point[k]) / half_ranges[k],
-         .half_ranges_error = error[k] / half_ranges[k]});
+    const double below = std::max(0.0, found.point[k] - error[k]);
+    const double above = std::min(1.0, found.point[k] + error[k]);
+    // At an end of the range one side is cut off.
+    const double shown = above > below ? error[k] / (above - below) : 0;
+    move.answer.push_back({.parameter = p.name,
+                           .from = p.ToNative(point[k]),
+                           .to = p.ToNative(found.point[k]),
+                           .standard_error = shown * (p.ToNative(above) - p.ToNative(below)),
+                           .low = p.ToNative(found.credible[i].low),
+                           .high = p.ToNative(found.credible[i].high),
+                           .half_ranges = (found.point[k] - point[k]) / half_ranges[k],
+                           .half_ranges_error = error[k] / half_ranges[k]});
   }
 }
 

@@ -19,6 +19,7 @@
 #include "experiments/rigs/case/device_text.h"
 #include "imaging/photos/sad_from_others.h"
 #include "imaging/spheres/projection.h"
+#include "optimizer/outputs/levels.h"
 
 namespace talus::campaign {
 namespace {
@@ -127,7 +128,8 @@ void AddStandardErrors(Planner& planner, const Eigen::VectorXd& recommended,
         scalar.standard_error = scatter.StandardError(scalar.num_trials);
         scalar.degrees = scatter.degrees;
         if (scatter.degrees > 0 || noise[e].empty()) continue;
-        scalar.standard_error = noise[e][s] * std::pow(candidate.scale_factor / target, 1.5) /
+        scalar.standard_error = noise[e][s] *
+                                optimizer::NoiseRatio(candidate.scale_factor, target) /
                                 std::sqrt(scalar.num_trials);
       }
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/student_factor.h"
+#include "optimizer/outputs/levels.h"
 
 namespace talus::campaign {
 namespace {
@@ -94,8 +95,9 @@ const ResultConfirmed* ConfirmedAtTarget(const Answer& answer, std::string_view 
 
 double NoiseOfConfirming(const Answer& answer, const ResultExperiment& experiment) {
   if (answer.confirmed.empty()) return experiment.noise_sd.value_or(0);
-  const double coarser = answer.confirmed.front().scale_factor / answer.conditions.scale_factor;
-  return experiment.noise_sd.value_or(0) * std::pow(coarser, 1.5);
+  return experiment.noise_sd.value_or(0) *
+         optimizer::NoiseRatio(answer.confirmed.front().scale_factor,
+                               answer.conditions.scale_factor);
 }
 
 double ErrorOf(const Answer& answer, const ResultExperiment& experiment,

@@ -300,22 +300,26 @@ std::optional<optimizer::Answer> Planner::Recommend() {
   return posterior_->Recommend();
 }
 
+const optimizer::ExperimentModel* Planner::ModelOf(int experiment) {
+  if (!posterior_->CanModel()) return nullptr;
+  return &posterior_->Model().models()[static_cast<std::size_t>(experiment)];
+}
+
 std::optional<double> Planner::NoiseSd(const Eigen::VectorXd& point, int experiment) {
-  if (!posterior_->CanModel()) return std::nullopt;
-  const auto& model = posterior_->Model().models()[static_cast<std::size_t>(experiment)];
-  if (!model.has_image()) return std::nullopt;
-  return model.ObjectiveNoise(point);
+  const optimizer::ExperimentModel* model = ModelOf(experiment);
+  if (model == nullptr || !model->has_image()) return std::nullopt;
+  return model->ObjectiveNoise(point);
 }
 
 std::vector<double> Planner::NumberNoise(const Eigen::VectorXd& point, int experiment) {
-  if (!posterior_->CanModel()) return {};
-  return posterior_->Model().models()[static_cast<std::size_t>(experiment)].ScalarNoise(point);
+  const optimizer::ExperimentModel* model = ModelOf(experiment);
+  return model == nullptr ? std::vector<double>() : model->ScalarNoise(point);
 }
 
 std::vector<float> Planner::PredictedField(const Eigen::VectorXd& point, int experiment) {
-  if (!posterior_->CanModel()) return {};
-  const auto& model = posterior_->Model().models()[static_cast<std::size_t>(experiment)];
-  return model.has_image() ? model.MeanImage(point) : std::vector<float>();
+  const optimizer::ExperimentModel* model = ModelOf(experiment);
+  if (model == nullptr || !model->has_image()) return {};
+  return model->MeanImage(point);
 }
 
 std::vector<const journal::TrialRecord*> Planner::Confirming(const Eigen::VectorXd& candidate,

@@ -160,6 +160,11 @@ inline int NumViewsOf(const Case& rig_case) {
   return IsRoundHeap(rig_case.rig.kind) ? rig_case.num_views : 1;
 }
 
+// Where the heap begins in its image, above the plate: at the rim's top [m].
+inline double HeapBase(const Case& rig_case) {
+  return rig_case.rig.kind == RigKind::kFunnelHeap ? rig_case.rig.funnel_heap.rim_height : 0;
+}
+
 // The frame of its image, a film strip where a camera takes several pictures. The case has one.
 imaging::Frame ProfileFrameOf(const Case& rig_case);
 

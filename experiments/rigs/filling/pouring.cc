@@ -61,7 +61,7 @@ engine::Pour MakePour(const Case& c, const Vessel& vessel) {
       .seed = c.seed,
       .first_id = 0};
   if (vessel.funnel && vessel.funnel->follows) plan.clearance = vessel.funnel->height;
-  plan.rate = c.filling.rate.value_or(engine::BeverlooRate(plan));
+  plan.rate = c.filling.rate.value_or(engine::BeverlooRate(plan, c.coarse_graining.scale_factor));
   return engine::Pour(std::move(plan));
 }
 

@@ -91,7 +91,7 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
   std::vector<engine::Particle> Grains() const override {
     std::vector<engine::Particle> heap = simulation().Particles();
     std::erase_if(heap, [](const engine::Particle& p) { return !IsOnPlate(p); });
-    for (engine::Particle& p : heap) p.position.z -= rig_case().rig.funnel_heap.rim_height;
+    for (engine::Particle& p : heap) p.position.z -= HeapBase(rig_case());
     return heap;
   }
 

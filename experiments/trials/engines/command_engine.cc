@@ -54,11 +54,6 @@ struct Measured {
   std::string doubt{};  // of its grains
 };
 
-// A rim's top is where the image of a heap begins, as in our own rig.
-double RimOf(const rigs::Case& rig_case) {
-  return rig_case.rig.kind == rigs::RigKind::kFunnelHeap ? rig_case.rig.funnel_heap.rim_height : 0;
-}
-
 Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
                         const fs::path& file, const fs::path& folder) {
   const auto spheres =
@@ -75,7 +70,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     throw base::Error("left " + file.filename().string() + " with " + doubt->text);
   }
   auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
-  for (base::Sphere& sphere : heap) sphere.position.z -= RimOf(rig_case);
+  for (base::Sphere& sphere : heap) sphere.position.z -= rigs::HeapBase(rig_case);
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
                       " spheres in " + file.filename().string() +

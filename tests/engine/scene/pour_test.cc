@@ -50,6 +50,10 @@ PourPlan Plan() {
 // W = 0.58 · 0.58 · 2500 · √9.81 · (0.01 − 0.0014)^2.5
 TEST(Pour, RunsAsFastAsBeverlooSays) {
   EXPECT_NEAR(BeverlooRate(Plan()), 0.58 * 0.58 * 2500 * 3.13209 * 6.8590e-6, 1e-6);
+  // Grains of 1 mm that stand for grains of 0.25 mm: the funnel is emptied of those.
+  PourPlan fine = Plan();
+  for (double& r : fine.radii) r /= 4;
+  EXPECT_DOUBLE_EQ(BeverlooRate(Plan(), 4), BeverlooRate(fine));
 }
 
 // After the first batch, mass comes at the rate, and nothing that comes touches anything.

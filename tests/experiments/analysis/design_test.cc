@@ -44,8 +44,9 @@ class DesignTest : public campaign::CampaignFixture {
   }
   DesignTable Rank(const DesignSpec& design, const campaign::FakeEngineOptions& engine) const {
     const campaign::JointView view = ViewOf(design, scratch_.path());
-    const campaign::CampaignParts parts{.runner = campaign::MakeRunner(view.spec, scratch_.path()),
-                                        .engine = std::make_unique<FakeEngine>(engine)};
+    const campaign::CampaignParts parts{
+        .runner = campaign::MakeDrawnRunner(view.spec, scratch_.path()),
+        .engine = std::make_unique<FakeEngine>(engine)};
     return RankDesigns(view, design.candidates, parts);
   }
   std::string ErrorOf(const std::string& members) const {

@@ -50,7 +50,7 @@ class GoalTest : public campaign::CampaignFixture {
     campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
     const auto parts = [&] {
       return campaign::CampaignParts{
-          .runner = campaign::MakeRunner(opened.spec, opened.folder.root),
+          .runner = campaign::MakeDrawnRunner(opened.spec, opened.folder.root),
           .engine =
               std::make_unique<FakeEngine>(campaign::FakeEngineOptions{.density_scatter = 0.3})};
     };

@@ -35,7 +35,7 @@ class PredictTest : public campaign::CampaignFixture {
   }
   Prediction Run(PredictOptions options, const campaign::FakeEngineOptions& engine = {}) const {
     return Predict(*view_, options,
-                   {.runner = campaign::MakeRunner(view_->spec, view_->folder.root),
+                   {.runner = campaign::MakeDrawnRunner(view_->spec, view_->folder.root),
                     .engine = std::make_unique<FakeEngine>(engine)});
   }
   fs::path Write(const std::string& name, const std::string& text) const {

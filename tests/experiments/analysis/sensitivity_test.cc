@@ -41,7 +41,7 @@ class SensitivityTest : public campaign::CampaignFixture {
   }
   static SensitivityTable FindWith(const JointView& view, SensitivityOptions options,
                                    const campaign::FakeEngineOptions& engine = kBouncing) {
-    options.parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+    options.parts = {.runner = campaign::MakeDrawnRunner(view.spec, view.folder.root),
                      .engine = std::make_unique<FakeEngine>(engine)};
     return FindSensitivity(view, options);
   }

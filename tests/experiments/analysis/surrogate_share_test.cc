@@ -34,7 +34,7 @@ TEST_F(SurrogateShareTest, AFurtherTestTeachesLessWhereSurrogatesKnowLess) {
   const TestCandidate test{.name = "the heap again"};
   const Eigen::MatrixXd draws = campaign::AnsweringStrategy(view)->Sample().Draws(200, 1);
   const campaign::CampaignParts parts{
-      .runner = campaign::MakeRunner(view.spec, view.folder.root),
+      .runner = campaign::MakeDrawnRunner(view.spec, view.folder.root),
       .engine = std::make_unique<campaign::FakeEngine>(campaign::FakeEngineOptions{})};
   const TestDesign design = SimulateDesign(view, test, {.draws = draws}, parts);
   const auto judged = [&](double share) {

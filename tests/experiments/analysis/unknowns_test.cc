@@ -39,7 +39,7 @@ class UnknownsTest : public campaign::CampaignFixture {
     return campaign::ReadJointView(folder_);
   }
   static campaign::CampaignParts Parts(const JointView& view) {
-    return {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+    return {.runner = campaign::MakeDrawnRunner(view.spec, view.folder.root),
             .engine = std::make_unique<FakeEngine>(kBouncing)};
   }
   static NextTable Rank(const JointView& view, bool simulate) {

@@ -127,7 +127,7 @@ TEST_F(AddExperimentTest, WhatNextHasSimulatedOfTheTestIsTakenOver) {
   const fs::path folder = Ended();
   const auto before = Trials(folder);
   const auto parts = [&] {
-    return CampaignParts{.runner = MakeRunner(LoadSpec(folder), folder),
+    return CampaignParts{.runner = MakeDrawnRunner(LoadSpec(folder), folder),
                          .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
   };
   const std::string fast_lift = TwoExperiments::FastLift("23 mg");

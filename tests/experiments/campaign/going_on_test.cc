@@ -126,7 +126,7 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
     const base::InterruptGuard interrupt;
     Console console(folder / "campaign.log", Console::Output::kQuiet);
     OpenedCampaign opened = OpenCampaign(folder, {}, console);
-    CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),
+    CampaignParts parts{.runner = MakeDrawnRunner(opened.spec, opened.folder.root),
                         .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
     Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
                       std::move(parts), console);

@@ -145,7 +145,7 @@ TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   // What to do next is ranked without any image, too.
   const JointView view = ReadJointView(folder);
   analysis::NextOptions options{.tests = analysis::UsualTests(view)};
-  options.parts = {.runner = MakeRunner(view.spec, view.folder.root),
+  options.parts = {.runner = MakeDrawnRunner(view.spec, view.folder.root),
                    .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
   const std::string next = analysis::NextText(analysis::RankNext(view, options));
   EXPECT_THAT(next, HasSubstr("more runs of tapped: measure its numbers as often again"));
