@@ -1,14 +1,21 @@
 #include "engine/run/bed.h"
 
 #include <numbers>
+#include <vector>
+
+#include "engine/run/resisted_spins.h"
 
 namespace talus::engine {
 
 Bed MeasureBed(const Simulation& simulation, const Vessel& vessel) {
   double volume = 0, moment = 0;
   std::int64_t grains = 0;
-  for (const Particle& p : simulation.Particles()) {
+  const std::vector<Particle> particles = simulation.Particles();
+  std::vector<bool> counts(particles.size(), false);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Particle& p = particles[i];
     if (p.id >= vessel.end_id || p.position.z < vessel.floor) continue;  // has fallen out
+    counts[i] = true;
     ++grains;
     const double v = 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
     volume += v;
@@ -16,9 +23,10 @@ Bed MeasureBed(const Simulation& simulation, const Vessel& vessel) {
   }
   if (volume == 0) return {};
   std::int64_t touching = 0;
+  const PlaceOfId place_of(particles);
   for (const ContactInfo& contact : simulation.Contacts()) {
-    const bool inside = contact.first < vessel.end_id && contact.second < vessel.end_id;
-    touching += inside && contact.second >= 0;
+    if (contact.second < 0) continue;  // with a wall
+    touching += counts[place_of(contact.first)] && counts[place_of(contact.second)];
   }
   Bed bed;
   bed.height = 2 * moment / volume;

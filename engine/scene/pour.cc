@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "base/random.h"
 #include "engine/bodies/wall_set.h"
@@ -149,11 +150,18 @@ Vec3 Pour::Mouth(const PourState& state) const {
   return plan_.mouth - (plan_.rise * poured + state.lift) * Down();
 }
 
-// The stream falls at its speed at the mouth or faster; what is slower than half of it lies there.
+// The stream falls at its speed at the mouth or faster; what is slower than half of it and touches
+// something lies there. A grain that bounces is slow in the air, too.
 double Pour::LiftOver(const Simulation& simulation) const {
   const double reach = plan_.mouth_diameter / 2;
+  std::unordered_set<std::int64_t> touching;
+  for (const ContactInfo& contact : simulation.Contacts()) {
+    touching.insert(contact.first);
+    touching.insert(contact.second);
+  }
   double lift = 0;
   for (const Particle& p : simulation.Particles()) {
+    if (!touching.contains(p.id)) continue;
     const Vec3 from_mouth = p.position - plan_.mouth;
     const double depth = Dot(from_mouth, Down());
     const bool is_below = base::Norm(from_mouth - depth * Down()) < reach;

@@ -63,6 +63,10 @@ void ValidateTaps(const Case& c, const TapRule& taps, const std::string& place,
   constexpr double kHighest = 0.05;  // [m]
   constexpr double kLongest = 1000;  // [s]
   const std::string path = place + ".height";
+  const double lasts = 3 * std::sqrt(2 * taps.height / c.gravity);
+  problems.Require(
+      taps.interval > lasts, place + ".interval", taps.interval,
+      "must be above three times the time of the fall, " + base::ShortNumber(lasts) + " s");
   const double share = BlowShare(c, 2 * c.gravity * taps.height);
   const double ratio = std::pow(share / kMaxImpactShare, 2.5);
   problems.Require(

@@ -88,4 +88,8 @@ double LargestDiameter(const Case& c) {
   return c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
 }
 
+double SpreadingGap(const Case& c) {
+  return c.rig.spreading.gap.value_or(3 * engine::SizeCurve(c.powder.sizes).VolumeQuantile(0.9));
+}
+
 }  // namespace talus::rigs

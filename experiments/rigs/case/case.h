@@ -180,4 +180,7 @@ PowderSize EstimatePowder(const Case& rig_case);
 // The diameter of the largest scaled grain [m].
 double LargestDiameter(const Case& rig_case);
 
+// The gap of a spreader: the case's, or three D90 of the true powder [m].
+double SpreadingGap(const Case& rig_case);
+
 }  // namespace talus::rigs

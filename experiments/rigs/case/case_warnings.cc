@@ -36,21 +36,42 @@ std::string FillingWarning(const Case& c) {
          "\"pour\"";
 }
 
-// By Beverloo's law, (D - 1.5 d)^2.5, coarse grains run out of an orifice more slowly than true
-// ones, and arch where those flow: the scale factor decides the test, whatever the contact.
-std::string OrificeWarning(const Case& c) {
+// An opening that powder runs out of: by Beverloo's law at a rate of (D - k d)^power.
+struct Opening {
+  const char* name;
+  double size;   // D [m]
+  double lost;   // k, diameters at its edges that nothing runs through
+  double power;  // 5/2 of a round one, 3/2 of a slot
+};
+
+// Coarse grains run out more slowly than true ones, and arch where those flow: the scale factor
+// decides the test, whatever the contact.
+std::string OpeningWarning(const Case& c, const Opening& opening) {
   constexpr double kMostSlower = 0.1;
   const double f = c.coarse_graining.scale_factor;
-  const double orifice = c.rig.orifice_flow.orifice;
   const double coarse = EstimatePowder(c).mean_diameter;
-  const auto opening = [&](double diameter) { return std::max(0.0, orifice - 1.5 * diameter); };
-  const double rate = std::pow(opening(coarse) / opening(coarse / f), 2.5);
+  const auto free = [&](double diameter) {
+    return std::max(0.0, opening.size - opening.lost * diameter);
+  };
+  const double rate = std::pow(free(coarse) / free(coarse / f), opening.power);
   if (!(rate < 1 - kMostSlower)) return {};
-  return "COARSE: the orifice is " + base::ShortNumber(orifice / coarse, 2) +
-         " grains across at scale factor " + base::ShortNumber(f) +
-         ", which by Beverloo's law run out at " + base::ShortNumber(100 * rate, 2) +
+  return "COARSE: the " + std::string(opening.name) + " is " +
+         base::ShortNumber(opening.size / coarse, 2) + " grains across at scale factor " +
+         base::ShortNumber(f) + ", which by Beverloo's law run out at " +
+         base::ShortNumber(100 * rate, 2) +
          " % of the rate of true ones, and may arch where those flow: take a smaller scale factor, "
          "or several";
+}
+
+// Grains that are nearly as large as the gap are carried along by the spreader or stop it.
+std::string GapWarning(const Case& c) {
+  constexpr double kLeast = 1.5;  // largest grains
+  const double f = c.coarse_graining.scale_factor;
+  const double across = SpreadingGap(c) / LargestDiameter(c);
+  if (f == 1 || across >= kLeast) return {};
+  return "COARSE: the spreader's gap is " + base::ShortNumber(across, 2) +
+         " of the largest grains at scale factor " + base::ShortNumber(f) +
+         ": they hardly pass below it; take a smaller scale factor";
 }
 
 }  // namespace
@@ -86,7 +107,15 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
     if (!text.empty()) warnings.push_back(std::move(text));
   };
   if (c.rig.kind == RigKind::kLiftedTube) warn(FillingWarning(c));
-  if (c.rig.kind == RigKind::kOrificeFlow) warn(OrificeWarning(c));
+  if (c.rig.kind == RigKind::kOrificeFlow) {
+    warn(OpeningWarning(
+        c, {.name = "orifice", .size = c.rig.orifice_flow.orifice, .lost = 1.5, .power = 2.5}));
+  }
+  if (c.rig.kind == RigKind::kDrawDown) {
+    warn(OpeningWarning(c,
+                        {.name = "slot", .size = c.rig.draw_down.slot, .lost = 1.4, .power = 1.5}));
+  }
+  if (c.rig.kind == RigKind::kSpreading) warn(GapWarning(c));
   const double f = c.coarse_graining.scale_factor;
   const double volume = c.powder.mass / c.powder.material.density;
   warn(engine::LostSizes(engine::SizeCurve(c.powder.sizes), volume / (f * f * f)));

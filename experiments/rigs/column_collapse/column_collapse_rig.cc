@@ -29,6 +29,9 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
     Phase running = Resting("running out", c.rules.heap);
     running.filmed = true;
     running.begin = [this] { Open(); };
+    // Until the gate is out of its way the column rests.
+    running.criterion = [this, rests = running.criterion] { return GateIsUp() && rests(); };
+    running.cap = [this, longest = c.rules.heap.max_time] { return longest + OpeningTime(); };
     SetPhases({running}, TestTime(c, FilledHeight(c, vessel())));
   }
 
@@ -84,7 +87,27 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
     return all;
   }
 
+  std::vector<std::string> Warnings(GrainSpan grains) const override {
+    const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
+    if (front > rig_case().rig.column_collapse.length / 2) return {};
+    return {"the column stands: less than 1 % of it ran out from behind the gate"};
+  }
+
  private:
+  // That the gate takes to the top of the bed [s].
+  double OpeningTime() const {
+    const auto& velocity = rig_case().rig.column_collapse.gate_velocity;
+    return velocity ? state().bed.height / *velocity : 0;
+  }
+
+  bool GateIsUp() const {
+    const auto& velocity = rig_case().rig.column_collapse.gate_velocity;
+    if (!velocity) return true;
+    double top = 0;
+    for (const engine::Particle& p : view().particles) top = std::max(top, p.position.z + p.radius);
+    return *velocity * (simulation().time() - phase_start()) > top;
+  }
+
   void Open() {
     const auto& velocity = rig_case().rig.column_collapse.gate_velocity;
     if (!velocity) return scene().RemoveWall(kGate);

@@ -50,7 +50,10 @@ class DrumRig : public RememberingRig<DrumMemory> {
 
   static Vessel VesselOf(const Case& c) {
     const double radius = c.rig.drum.diameter / 2;
-    return BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig.drum.width);
+    Vessel vessel = BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig.drum.width);
+    vessel.floor = 0;
+    vessel.is_prism = false;
+    return vessel;
   }
 
   static std::vector<engine::Wall> Walls(const Case& c, double) {

@@ -81,8 +81,9 @@ double BlowShare(const Case& c, double square_speed) {
 
 double ImpactShare(const Case& c, const Vessel& vessel) {
   const engine::Pour pour = MakePour(c, vessel);
-  const double fall = 2 * c.gravity * (DropHeight(c, vessel) + pour.slab());
-  return BlowShare(c, std::pow(engine::StreamSpeed(pour.plan()), 2) + fall);
+  const double above_floor = vessel.region.base.z - vessel.Floor();
+  const double fall = DropHeight(c, vessel) + pour.slab() + above_floor;
+  return BlowShare(c, std::pow(engine::StreamSpeed(pour.plan()), 2) + 2 * c.gravity * fall);
 }
 
 }  // namespace talus::rigs

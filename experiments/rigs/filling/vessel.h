@@ -30,6 +30,10 @@ struct Vessel {
   double across = 0;  // the diameter, or the shorter edge [m]
   std::optional<Funnel> funnel{};
   std::optional<PowderBed> bed{};
+  std::optional<double> floor{};  // its height, where the region filled begins above it [m]
+  bool is_prism = true;           // of one cross-section, which a bed fills to a height
+
+  double Floor() const { return floor.value_or(region.base.z); }
 };
 
 // `foot` is the centre of its floor; along x and y [m].

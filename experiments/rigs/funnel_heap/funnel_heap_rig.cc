@@ -8,6 +8,8 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/phased/contact_sets.h"
+#include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
@@ -15,8 +17,7 @@ namespace talus::rigs {
 namespace {
 
 constexpr double kThickness = 0.005;  // of the plate [m]
-
-bool IsOnPlate(const engine::Particle& p) { return p.position.z > 0; }
+constexpr int kFunnelPlate = 0;       // index of the wall
 
 struct FunnelHeapMemory {
   double mass_fallen = 0;  // out of the scene [kg]
@@ -47,11 +48,13 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
     const double diameter = options.plate_diameter;
     engine::FillRegion region;
     region.diameter = diameter;
-    return {.region = region,
-            .area = region.Area(),
-            .across = diameter,
-            .funnel = Funnel{
-                .height = options.height, .outlet = options.outlet, .follows = options.follows}};
+    return {
+        .region = region,
+        .area = region.Area(),
+        .across = diameter,
+        .funnel =
+            Funnel{.height = options.height, .outlet = options.outlet, .follows = options.follows},
+        .is_prism = false};
   }
 
   static std::vector<engine::Wall> Walls(const Case& c, double) {
@@ -87,10 +90,16 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   static double TestTime(const Case& c, double) { return MakePour(c, VesselOf(c)).Duration(); }
 
-  // what has not fallen off the plate, the layer below the rim's top included
+  // what lies on the plate or is about to, the layer below the rim's top included
   std::vector<engine::Particle> Grains() const override {
-    std::vector<engine::Particle> heap = simulation().Particles();
-    std::erase_if(heap, [](const engine::Particle& p) { return !IsOnPlate(p); });
+    const std::vector<engine::Particle> present = simulation().Particles();
+    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
+    std::vector<bool> on_plate = ContactSets(present, contacts).Reaching(kFunnelPlate);
+    AddLanding(present, rig_case().rig.funnel_heap.plate_diameter / 2, on_plate);
+    std::vector<engine::Particle> heap;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      if (on_plate[i]) heap.push_back(present[i]);
+    }
     for (engine::Particle& p : heap) p.position.z -= HeapBase(rig_case());
     return heap;
   }
@@ -106,10 +115,7 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
   }
 
   std::vector<Reading> Readings(GrainSpan heap) const override {
-    double falling = 0;
-    for (const engine::Particle& p : simulation().Particles()) {
-      if (!IsOnPlate(p)) falling += MassOf({&p, 1});
-    }
+    const double falling = MassOf(simulation().Particles()) - MassOf(heap);
     double height = 0;
     for (const engine::Particle& p : heap) height = std::max(height, p.position.z + p.radius);
     std::vector<Reading> all{{Observable::kMassOnPlate, MassOf(heap)},

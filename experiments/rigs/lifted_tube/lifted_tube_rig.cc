@@ -6,11 +6,11 @@
 #include <utility>
 #include <variant>
 
+#include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
-#include "experiments/rigs/lifted_tube/landing.h"
-#include "experiments/rigs/lifted_tube/masses.h"
+#include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rest.h"
 
@@ -26,16 +26,6 @@ constexpr const char* kResting = "coming to rest";
 // Mean kinetic energy relative to the tube, over m g d, below which grains stick to it: falling off
 // it they would have that after a fiftieth of a diameter, swinging in their bonds they stay below.
 constexpr double kStuckEnergy = 0.02;
-
-double Volume(const Particle& p) {
-  return 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
-}
-
-double Volume(std::span<const Particle> grains) {
-  double volume = 0;
-  for (const Particle& p : grains) volume += Volume(p);
-  return volume;
-}
 
 double PlateRadius(const engine::Simulation& simulation) {
   const engine::WallShape& plate = simulation.Walls().at(kPlate).shape;
@@ -119,7 +109,7 @@ std::optional<PhaseEnd> LiftedTubeRig::Look() {
   }
   std::sort(fallen.begin(), fallen.end());
   if (!fallen.empty()) {
-    memory().num_fallen += Remove(fallen);
+    memory().num_fallen += WeighOut(fallen, memory().mass_fallen);
     connected_ = Connect(view().particles, view().contacts);
   }
   if (phase == kResting && view().particles.empty()) return PhaseEnd::kEmpty;
@@ -147,7 +137,7 @@ void LiftedTubeRig::DropTube() {
     if (connected_.on_tube[i]) carried.push_back(view().particles[i].id);
   }
   scene().RemoveWall(kTube);
-  memory().num_carried += Remove(carried);
+  memory().num_carried += WeighOut(carried, memory().mass_carried);
 }
 
 double LiftedTubeRig::LiftMaxTime() const {
@@ -175,20 +165,15 @@ std::vector<Particle> LiftedTubeRig::Grains() const { return GrainsOfHeap(simula
 
 std::vector<Reading> LiftedTubeRig::Readings(GrainSpan heap) const {
   const double density = rig_case().powder.material.density;
-  const std::int64_t num_gone = memory().num_fallen + memory().num_carried;
-  const double share =
-      num_gone > 0 ? static_cast<double>(memory().num_fallen) / static_cast<double>(num_gone) : 0;
   const std::vector<Particle> present = simulation().Particles();
-  const HeapBalance balance{.filled = FilledVolume(rig_case(), state().num_filled),
-                            .present = Volume(present),
-                            .on_plate = Volume(heap),
-                            .fallen_share = share};
+  const double on_plate = MassOf(heap);
+  const double falling = MassOf(present) - on_plate;  // what is neither of the heap nor gone
   const auto num_falling = static_cast<double>(present.size() - heap.size());
   double height = 0;
   for (const Particle& p : heap) height = std::max(height, p.position.z + p.radius);
   std::vector<Reading> all{
-      {Observable::kMassOnPlate, density * balance.on_plate},
-      {Observable::kMassFallen, density * Fallen(balance)},
+      {Observable::kMassOnPlate, on_plate},
+      {Observable::kMassFallen, memory().mass_fallen + falling},
       {Observable::kNumFallen, static_cast<double>(memory().num_fallen) + num_falling},
       {Observable::kHeight, height},
       {Observable::kBulkDensity, density * state().bed.solid_fraction}};
@@ -215,8 +200,15 @@ Rig::Numbers LiftedTubeRig::Conditions() const {
 }
 
 std::vector<std::string> LiftedTubeRig::Warnings(GrainSpan heap) const {
-  if (!heap.empty()) return {};
-  return {"nothing is left on the plate"};
+  std::vector<std::string> warnings;
+  if (heap.empty()) warnings.push_back("nothing is left on the plate");
+  const auto length = rig_case().rig.lifted_tube.tube_length;
+  if (length && state().bed.height > *length) {
+    warnings.push_back("the bed, " + base::ShortNumber(1e3 * state().bed.height) +
+                       " mm high, stood above the tube of " + base::ShortNumber(1e3 * *length) +
+                       " mm: lengthen it");
+  }
+  return warnings;
 }
 
 const RigEntry kLiftedTubeRig = EntryFor<LiftedTubeRig>(RigKind::kLiftedTube);

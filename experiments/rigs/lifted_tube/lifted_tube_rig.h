@@ -15,8 +15,12 @@ namespace talus::rigs {
 struct LiftedTubeMemory {
   std::int64_t num_fallen = 0;   // left over the plate's rim
   std::int64_t num_carried = 0;  // taken away by the tube
+  double mass_fallen = 0;        // [kg]
+  double mass_carried = 0;       // [kg]
 
-  TALUS_FIELDS(num_fallen, num_carried);
+  static constexpr base::FieldKey kKeys[] = {{"mass_fallen", "mass_fallen_kg"},
+                                             {"mass_carried", "mass_carried_kg"}};
+  TALUS_FIELDS(num_fallen, num_carried, mass_fallen, mass_carried);
 };
 
 class LiftedTubeRig : public RememberingRig<LiftedTubeMemory> {

@@ -54,6 +54,9 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
     const double test_time = TestTime(c, FilledHeight(c, vessel()));
     Phase discharging = Resting(kDischarging, c.rules.heap);
     discharging.hold_time = c.rig.orifice_flow.arch_time;
+    discharging.criterion = [this, rests = discharging.criterion] {
+      return HasStopped(memory().flow, rig_case().rules.heap.hold_time) && rests();
+    };
     discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };
@@ -64,7 +67,11 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
     engine::FillRegion region;
     region.diameter = c.rig.orifice_flow.diameter;
     region.base = {0, 0, ConeHeight(c.rig.orifice_flow)};
-    return {.region = region, .area = region.Area(), .across = c.rig.orifice_flow.diameter};
+    return {.region = region,
+            .area = region.Area(),
+            .across = c.rig.orifice_flow.diameter,
+            .floor = 0,
+            .is_prism = !c.rig.orifice_flow.cone_angle};
   }
 
   static std::vector<engine::Wall> Walls(const Case& c, double height) {

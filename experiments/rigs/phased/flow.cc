@@ -20,6 +20,15 @@ double TimeOf(double mass, std::span<const Passed> flow) {
 
 }  // namespace
 
+bool HasStopped(std::span<const Passed> flow, double for_time) {
+  if (flow.empty()) return false;
+  for (auto look = flow.rbegin(); look != flow.rend(); ++look) {
+    if (look->mass < flow.back().mass) return false;
+    if (flow.back().time - look->time >= for_time) return true;
+  }
+  return false;
+}
+
 std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed,
                                   const std::string& none) {
   Reading time{Observable::kDischargeTime};

@@ -25,6 +25,9 @@ struct FlowMemory {
   TALUS_FIELDS(flow);
 };
 
+// Whether nothing has passed for so long [s]: where little runs out of much, the rest of it rests.
+bool HasStopped(std::span<const Passed> flow, double for_time);
+
 // Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; without a
 // value, and `none` for a reason, where nothing has.
 std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed,

@@ -30,9 +30,13 @@ double EnergyRatio::ValueWithoutFastest(double share) const {
   std::vector<Grain>& slowest = rest.grains_;
   std::sort(slowest.begin(), slowest.end(),
             [](const Grain& a, const Grain& b) { return a.energy < b.energy; });
-  double to_leave = 0;
-  for (const Grain& g : slowest) to_leave += share * g.weight;
-  for (; to_leave > 0 && !slowest.empty(); slowest.pop_back()) to_leave -= slowest.back().weight;
+  double weight = 0;
+  for (const Grain& g : slowest) weight += g.weight;
+  constexpr double kFew = 0.1;  // of the weight: a grain with more of it is never left out
+  for (double to_leave = share * weight; to_leave > 0 && !slowest.empty(); slowest.pop_back()) {
+    if (slowest.back().weight > kFew * weight) break;
+    to_leave -= slowest.back().weight;
+  }
   return rest.Value();
 }
 

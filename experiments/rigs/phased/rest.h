@@ -17,7 +17,8 @@ class EnergyRatio {
   void Add(const engine::Particle& grain, const engine::Vec3& velocity, const engine::Vec3& spin);
   double Value() const;
 
-  // Without the fastest grains that make up `share` of the weight, rounded up to a whole grain.
+  // Without the fastest grains that make up `share` of the weight, rounded up to a whole grain; one
+  // that makes up more than a tenth of it is not left out.
   double ValueWithoutFastest(double share) const;
 
  private:

@@ -70,6 +70,9 @@ void Rig::SetPhases(std::vector<Phase> phases, double test_time) {
   simulated_time_ = SimulatedTime(case_, test_time) + (pour_ ? pour_->Duration() : 0);
   if (pour_) phases_.push_back(Pouring());
   phases_.push_back(Resting(kSettling, case_.rules.settling));
+  if (pour_) {
+    phases_.back().criterion = [this] { return HasLanded() && AtRest(case_.rules.settling); };
+  }
   if (case_.filling.taps) {
     phases_.push_back(Tapping(*case_.filling.taps));
     phases_.push_back(Resting(kSettling, case_.rules.settling));
@@ -178,6 +181,12 @@ bool Rig::Held(const Phase& phase) {
   return holds && static_cast<double>(steps) * simulation_.time_step() >= phase.hold_time;
 }
 
+// What left the mouth last has come down: in flight it is too little to show.
+bool Rig::HasLanded() const {
+  const double fall = DropHeight(case_, vessel_) + pour_->slab();
+  return simulation_.time() - phase_start() >= std::sqrt(2 * fall / case_.gravity);
+}
+
 bool Rig::AtRest(const RestRule& rule) {
   record().energy_ratio =
       RestingEnergy(view().particles, view().contacts,
@@ -210,8 +219,10 @@ void Rig::EndPhase(PhaseEnd reason) {
 
 void Rig::MeasureBed() {
   state_.bed = BedNow();
+  const engine::Bed& bed = state_.bed;
+  if (!vessel_.is_prism) return Say(Format("%.2f contacts a grain", bed.coordination));
   Say(Format("the bed is %.4g mm high; solid fraction %.3f, %.2f contacts a grain",
-             1e3 * state_.bed.height, state_.bed.solid_fraction, state_.bed.coordination));
+             1e3 * bed.height, bed.solid_fraction, bed.coordination));
 }
 
 const Rig::View& Rig::view() const {
@@ -221,9 +232,12 @@ const Rig::View& Rig::view() const {
   return *view_;
 }
 
-std::int64_t Rig::Remove(const std::vector<std::int64_t>& ids) {
+std::int64_t Rig::WeighOut(const std::vector<std::int64_t>& ids, double& mass) {
   if (ids.empty()) return 0;
   const auto gone = [&](std::int64_t id) { return std::binary_search(ids.begin(), ids.end(), id); };
+  for (const engine::Particle& p : view().particles) {
+    if (gone(p.id)) mass += MassOf({&p, 1});
+  }
   if (view_) {
     std::erase_if(view_->particles, [&](const engine::Particle& p) { return gone(p.id); });
     std::erase_if(view_->contacts, [&](const engine::ContactInfo& contact) {
@@ -236,17 +250,15 @@ std::int64_t Rig::Remove(const std::vector<std::int64_t>& ids) {
 void Rig::WeighOut(const std::function<bool(const engine::Particle&)>& leaves, double& mass) {
   std::vector<std::int64_t> leaving;
   for (const engine::Particle& p : view().particles) {
-    if (!leaves(p)) continue;
-    mass += MassOf({&p, 1});
-    leaving.push_back(p.id);
+    if (leaves(p)) leaving.push_back(p.id);
   }
-  Remove(leaving);
+  WeighOut(leaving, mass);
 }
 
 engine::Bed Rig::BedNow() const {
   return engine::MeasureBed(
       simulation_,
-      {.area = vessel_.area, .floor = vessel_.region.base.z, .end_id = FirstBedId(case_, vessel_)});
+      {.area = vessel_.area, .floor = vessel_.Floor(), .end_id = FirstBedId(case_, vessel_)});
 }
 
 double Rig::MassOf(GrainSpan grains) const {

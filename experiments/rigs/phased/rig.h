@@ -81,9 +81,10 @@ class Rig {
     std::vector<engine::ContactInfo> contacts;
   };
   const View& view() const;
-  // Takes grains out of the scene and of the view; `ids` ascending.
-  std::int64_t Remove(const std::vector<std::int64_t>& ids);
-  // The same of those that `leaves` picks; their mass is added to `mass` [kg].
+  // Takes grains out of the scene and of the view, and adds their mass to `mass` [kg]; `ids`
+  // ascending. Returns how many they were.
+  std::int64_t WeighOut(const std::vector<std::int64_t>& ids, double& mass);
+  // The same of those that `leaves` picks.
   void WeighOut(const std::function<bool(const engine::Particle&)>& leaves, double& mass);
 
   const Case& rig_case() const { return case_; }
@@ -104,6 +105,7 @@ class Rig {
   void Check();
   void LookAtRegime();
   bool Held(const Phase& phase);
+  bool HasLanded() const;
   bool AtRest(const RestRule& rule);
   void EndPhase(PhaseEnd reason);
   Phase Pouring();

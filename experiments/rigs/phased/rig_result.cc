@@ -121,10 +121,12 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
   result["talus_version"] = base::Version();
   result["input_hash"] = base::Hex(CaseHash(case_));
   result["phases"] = PhasesOf(case_, state_, phases_);
-  result["bed"] = {{"filling", base::NameOf(case_.filling.kind)},
-                   {"height_m", state_.bed.height},
-                   {"solid_fraction", state_.bed.solid_fraction},
-                   {"contacts_per_grain", state_.bed.coordination}};
+  result["bed"]["filling"] = base::NameOf(case_.filling.kind);
+  if (vessel_.is_prism) {
+    result["bed"]["height_m"] = state_.bed.height;
+    result["bed"]["solid_fraction"] = state_.bed.solid_fraction;
+  }
+  result["bed"]["contacts_per_grain"] = state_.bed.coordination;
   result["num_grains"] = state_.num_filled;
   for (const auto& [name, count] : Counts(grains)) result["counts"][name] = count;
   std::vector<Reading> readings = Readings(grains);

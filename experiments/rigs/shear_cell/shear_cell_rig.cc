@@ -137,7 +137,7 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     engine::FillRegion region;
     region.diameter = c.rig.shear_cell.diameter;
     region.base = {0, 0, VaneHeight(c)};
-    return {.region = region, .area = region.Area(), .across = region.diameter.value()};
+    return {.region = region, .area = region.Area(), .across = region.diameter.value(), .floor = 0};
   }
 
   static std::vector<engine::Wall> Walls(const Case& c, double height) {

@@ -156,7 +156,8 @@ class SpreadingRig : public RememberingRig<NoMemory> {
       if (p.id >= first_bed_id_ && p.position.z + p.radius > 0) above.push_back(p.id);
     }
     std::sort(above.begin(), above.end());
-    Remove(above);
+    double struck_off = 0;  // of no interest: powder that nobody weighs
+    WeighOut(above, struck_off);
   }
 
   // without the bed's

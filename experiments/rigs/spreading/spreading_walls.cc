@@ -80,10 +80,6 @@ void AddTrench(const Case& c, double depth, std::vector<engine::Wall>& walls) {
 
 }  // namespace
 
-double SpreadingGap(const Case& c) {
-  return c.rig.spreading.gap.value_or(3 * engine::SizeCurve(c.powder.sizes).VolumeQuantile(0.9));
-}
-
 double PlatformHeight(const Case& c) {
   return c.rig.spreading.spreader == Spreader::kRoller ? 0 : SpreadingGap(c);
 }

@@ -13,9 +13,6 @@
 
 namespace talus::rigs {
 
-// The gap of the case, or three D90 of the true powder [m].
-double SpreadingGap(const Case& rig_case);
-
 // Height of the ground that the heap stands on [m].
 double PlatformHeight(const Case& rig_case);
 

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <string>
 
-#include "experiments/rigs/lifted_tube/masses.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/phased/repose.h"
 
@@ -39,8 +38,7 @@ std::vector<journal::MetricRecord> TubeNumbersOf(const rigs::Case& rig_case, dou
     diameters += 2 * s.radius;
   }
   const double on_plate = volume * rig_case.powder.material.density;
-  const double filled = std::max(rig_case.powder.mass, on_plate);
-  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
+  const double fallen = std::max(0.0, rig_case.powder.mass - on_plate);
   std::vector<journal::MetricRecord> numbers{RecordOf({rigs::Observable::kMassOnPlate, on_plate}),
                                              RecordOf({rigs::Observable::kMassFallen, fallen}),
                                              RecordOf({rigs::Observable::kHeight, height})};

@@ -99,8 +99,9 @@ TEST(Pour, GrainsWaitWhereThereIsNoRoom) {
   EXPECT_GT(pour.NextTime(state), 0);
 }
 
-// Two grains lie below the mouth, one of them beside it, and one falls: the one that lies is kept 5
-// mm away; what is poured makes no difference, and the mouth never sinks.
+// Two grains lie below the mouth on others, one of them beside it, one falls, and one is at the top
+// of its hop: the one that lies is kept 5 mm away; what is poured makes no difference, and the
+// mouth never sinks.
 TEST(Pour, AMouthThatFollowsKeepsItsDistanceFromWhatLiesBelowIt) {
   PourPlan plan = Plan();
   plan.mouth = {0, 0, 6e-3};
@@ -112,7 +113,10 @@ TEST(Pour, AMouthThatFollowsKeepsItsDistanceFromWhatLiesBelowIt) {
   scene.particles = {
       {.id = 10000, .radius = 1e-3, .position = {1e-3, 0, 2e-3}},
       {.id = 10001, .radius = 1e-3, .position = {9e-3, 0, 3e-3}},
-      {.id = 10002, .radius = 1e-3, .position = {0, 0, 4e-3}, .velocity = {0, 0, -1}}};
+      {.id = 10002, .radius = 1e-3, .position = {0, 0, 4e-3}, .velocity = {0, 0, -1}},
+      {.id = 10003, .radius = 1e-3, .position = {1e-3, 0, 1e-6}},
+      {.id = 10004, .radius = 1e-3, .position = {9e-3, 0, 1e-3 + 1e-6}},
+      {.id = 10005, .radius = 1e-3, .position = {-1.5e-3, 1.5e-3, 5.5e-3}}};
   Simulation simulation(scene);
   pour.Advance(simulation, state);
   EXPECT_NEAR(state.lift, 3e-3 + 5e-3 - 6e-3, 1e-12);
@@ -188,6 +192,9 @@ TEST(Bed, MeasuresALattice) {
   EXPECT_NEAR(bed.height, 2 * (r + 1.999 * r), 1e-12);
   EXPECT_NEAR(bed.solid_fraction, std::numbers::pi / 6, 1e-3);
   EXPECT_NEAR(bed.coordination, 2 * 32 / 48.0, 1e-12);  // only the layers touch
+  // What lies below the floor is not of the bed, nor are its contacts.
+  const Bed upper = MeasureBed(Simulation(scene), {.area = 64 * r * r, .floor = 2 * r});
+  EXPECT_NEAR(upper.coordination, 2 * 16 / 32.0, 1e-12);
 }
 
 }  // namespace pour_test

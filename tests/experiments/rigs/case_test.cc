@@ -179,6 +179,23 @@ TEST(HeapScene, WarnsWhenTheGrainsAreTooFewAcrossThePlate) {
   EXPECT_THAT(CaseWarnings(rig_case).at(0), HasSubstr("a wider tube and plate would say more"));
 }
 
+// Openings that the scale factor closes. By (D - 1.4 d)^1.5 a slot of 9 mm lets grains of 3 mm run
+// out at half the rate of those of 1 mm; the default gap is that of the true powder.
+TEST(HeapScene, WarnsWhenTheScaleFactorClosesAnOpening) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
+  rig_case.rig.kind = RigKind::kDrawDown;
+  rig_case.rig.draw_down.slot = 9e-3;
+  EXPECT_TRUE(SetUpWarnings(rig_case).empty());
+  rig_case.coarse_graining.scale_factor = 3;
+  EXPECT_THAT(SetUpWarnings(rig_case).at(0), HasSubstr("COARSE: the slot is 3 grains across"));
+  EXPECT_THAT(SetUpWarnings(rig_case).at(0), HasSubstr("at 50 % of the rate"));
+  rig_case.rig.kind = RigKind::kSpreading;
+  EXPECT_THAT(SetUpWarnings(rig_case).at(0), HasSubstr("the spreader's gap is 1 of the largest"));
+  rig_case.coarse_graining.scale_factor = 1.5;
+  EXPECT_TRUE(SetUpWarnings(rig_case).empty());
+}
+
 // Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
 // γ = 3.75e-3 J/m², whatever the scale factor.
 TEST(HeapScene, WarnsWhenACohesivePowderIsPlacedDensely) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/rig_run.h"
 #include "tests/experiments/rigs/rig_case.h"
 
@@ -103,6 +104,29 @@ TEST(FunnelHeap, ItIsFlatterThanTheLiftedTubesByTenDegreesAtMost) {
     EXPECT_GT(rig->state().pour.lift, top - 0.001);
     EXPECT_LT(rig->state().pour.lift, top + 0.002);
   }
+}
+
+// Grains that fall in a file are none of the heap, and the heap is not at rest before the last of
+// them has landed: a single one on its way made heaps ten times as high.
+TEST(FunnelHeap, GrainsOnTheirWayAreNoneOfTheHeap) {
+  Case c = CaseOf(RigKind::kFunnelHeap, 0.5, 0.2, 0.3e-3);
+  c.rig.funnel_heap = {.plate_diameter = 0.014, .height = 0.055, .outlet = 0.005};
+  c.filling.kind = FillingKind::kPour;
+  c.filling.rate = 0.1e-3;
+  const auto rig = Ran(c);
+  EXPECT_LT(Value(c, *rig, "height_m"), 0.006);
+  EXPECT_GT(rig->RecordOf("settling").end_time - rig->RecordOf("settling").start_time,
+            std::sqrt(2 * 0.055 / 9.81));
+  EXPECT_NEAR(Value(c, *rig, "mass_on_plate_kg") + Value(c, *rig, "mass_fallen_kg"), 0.3e-3, 2e-6);
+}
+
+// An opening that powder trickles out of has not stopped, however much rests above it.
+TEST(Flow, HasStoppedWhenNothingHasPassedForLongEnough) {
+  const std::vector<Passed> flow{{0, 0}, {0.1, 1}, {0.2, 2}, {0.3, 2}, {0.4, 2}};
+  EXPECT_TRUE(HasStopped(flow, 0.2));
+  EXPECT_FALSE(HasStopped(flow, 0.25));
+  EXPECT_FALSE(HasStopped(std::span(flow).first(3), 0.05));
+  EXPECT_FALSE(HasStopped({}, 0.1));
 }
 
 // The rim keeps a layer on the plate for the heap to stand on: more stays, as much as fits below

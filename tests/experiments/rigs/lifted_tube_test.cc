@@ -11,11 +11,12 @@
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
-#include "experiments/rigs/lifted_tube/landing.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/rest.h"
 #include "experiments/rigs/rig_list.h"
+#include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
 namespace lifted_tube_test {
@@ -134,6 +135,27 @@ TEST(LiftedTube, WhatSticksToTheTubeIsCarriedAwayAndCounted) {
   EXPECT_EQ(sticky.EndOf("lifting"), PhaseEnd::kCleared);
 }
 
+// Fines stick to the tube: they are more of the grains that it carries than of their mass.
+TEST(LiftedTube, WhatTheTubeCarriesIsWeighed) {
+  Case c = Coarse(0.5, 0.2);
+  c.models.adhesion = engine::Adhesion::kDmt;
+  c.powder.material.surface_energy = 0.02;
+  c.powder.sizes = {.kind = engine::SizeKind::kClasses,
+                    .diameters = {0.5e-3, 0.51e-3, 1e-3, 1.01e-3},
+                    .shares = {0.3, 0, 0.7}};
+  c.materials.walls = WallMaterial{.surface_energy = 2};
+  c.materials.floor = WallMaterial{.surface_energy = 0};
+  const Outcome run = RunToTheEnd(c);
+  const LiftedTubeMemory& memory = dynamic_cast<const LiftedTubeRig&>(*run.rig).memory();
+  const double on_plate = Value(c, *run.rig, "mass_on_plate_kg");
+  const double fallen = Value(c, *run.rig, "mass_fallen_kg");
+  const double filled = FilledVolume(c, run.rig->state().num_filled) * 2500;
+  ASSERT_GT(memory.num_carried, 0);
+  EXPECT_NEAR(on_plate + fallen + memory.mass_carried, filled, 1e-9 * filled);
+  EXPECT_LT(memory.mass_carried / static_cast<double>(memory.num_carried),
+            filled / static_cast<double>(run.rig->state().num_filled));
+}
+
 // Nothing may drive the grains of a heap at rest. Those with one contact keep the twist that the
 // collapse left them, here up to 109 rad/s, a free fall over a diameter gives 280 rad/s. Without
 // the projection in (R2) single grains gain hundreds of rad/s in this time.
@@ -211,6 +233,10 @@ TEST(EnergyRatio, LeavesTheFastestGrainsOutAndCountsSpin) {
   energy.Add(Grain({}, {}), {fall, 0, 0}, {});
   EXPECT_NEAR(energy.Value(), 1.0 / 400, 1e-12);
   EXPECT_EQ(energy.ValueWithoutFastest(0.005), 0);  // two grains of 400
+  // A single grain that falls is not at rest, nor is the boulder among fines.
+  EnergyRatio single(9.81);
+  single.Add(Grain({}, {}), {fall, 0, 0}, {});
+  EXPECT_NEAR(single.ValueWithoutFastest(0.005), 1, 1e-12);
   EnergyRatio rolling(9.81);
   rolling.Add(Grain({}, {}), {fall, 0, 0}, {0, fall / 0.5e-3, 0});
   EXPECT_NEAR(rolling.Value(), 1.4, 1e-12);
@@ -302,6 +328,22 @@ TEST(LiftedTube, AMassThatWouldRunForHoursIsNamedByItself) {
 
 // The floor does not stop hard grains. Their bed leapt out of its tube, and a heap of nothing was
 // called done; thousands of taps went on for hours.
+// Where things fall more slowly a tap takes longer; a tap from 3 mm takes 0.18 s on the moon.
+TEST(LiftedTube, TapsTakeTheirTimeInTheCasesGravity) {
+  Case c = Poured(0.5, 0.2);
+  c.filling.taps = TapRule{.count = 2, .height = 3e-3, .interval = 0.12};
+  const auto problems_of = [](const Case& checked) {
+    base::Problems problems;
+    ValidateCase(checked, problems);
+    return problems.empty() ? "" : problems.Text();
+  };
+  EXPECT_EQ(problems_of(c), "");
+  c.gravity = 1.62;
+  EXPECT_THAT(problems_of(c), ::testing::HasSubstr("taps.interval"));
+  c.filling.taps->interval = 0.19;
+  EXPECT_EQ(problems_of(c), "");
+}
+
 TEST(LiftedTube, TapsThatNoDeviceMakesAreRefused) {
   Case c = Poured(0.5, 0.2);
   c.filling = {};

@@ -109,6 +109,18 @@ TEST(ColumnCollapse, RunoutGrowsWithTheAspectRatioAsPublished) {
   }
 }
 
+// A column rests until its gate is out of its way: it has not run out before. By a slow gate it
+// runs out from below, and about as far.
+TEST(ColumnCollapse, ASlowGateIsWaitedFor) {
+  Case c = Collapse(0.45e-3);
+  const double at_once = Value(c, *Ran(c), "runout_m");
+  c.rig.column_collapse.gate_velocity = 0.05;
+  const auto rig = Ran(c);
+  EXPECT_NEAR(Value(c, *rig, "runout_m"), at_once, 0.3 * at_once);
+  const PhaseRecord& running = rig->RecordOf("running out");
+  EXPECT_GT((running.end_time - running.start_time) * 0.05, Value(c, *rig, "height_m"));
+}
+
 // A layer of grains that do not roll slides on its floor as a block: tan(angle) = μ, the pair's
 // harmonic mean of 1 and 0.2, 1/3. What keeps it at the walls is little, as these are smooth.
 TEST(TiltingBox, AFrictionalBlockSlidesAtItsAngleOfFriction) {

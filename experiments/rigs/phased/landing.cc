@@ -1,4 +1,4 @@
-#include "experiments/rigs/lifted_tube/landing.h"
+#include "experiments/rigs/phased/landing.h"
 
 #include <algorithm>
 #include <cmath>

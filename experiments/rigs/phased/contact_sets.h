@@ -1,0 +1,29 @@
+// Grains that hang together by contacts, and the walls that they reach.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/simulation.h"
+
+namespace talus::rigs {
+
+class ContactSets {
+ public:
+  // `particles` by id and `contacts`, as Simulation gives them; `contacts` outlive it.
+  ContactSets(std::span<const engine::Particle> particles,
+              std::span<const engine::ContactInfo> contacts);
+
+  // Of each particle: whether it touches the wall.
+  std::vector<bool> Touching(int wall) const;
+  // Of each particle: whether a chain of contacts leads to the wall.
+  std::vector<bool> Reaching(int wall) const;
+
+ private:
+  std::vector<std::size_t> set_;    // of each particle
+  std::vector<std::size_t> first_;  // particle of each contact
+  std::span<const engine::ContactInfo> contacts_;
+};
+
+}  // namespace talus::rigs
