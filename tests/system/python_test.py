@@ -4,6 +4,7 @@ compares."""
 import json
 import os
 import pathlib
+import signal
 import sqlite3
 import subprocess
 import sys
@@ -163,6 +164,31 @@ def check_simulation(root):
     metrics = talus.compare(profile, profile, FRAME)
     assert metrics["sad_mm2"] == 0 and metrics["iou"] == 1
     raises(talus.ConfigError, "case.json", talus.simulate, str(root / "absent/case.json"), str(root / "x"))
+    check_interrupts(root)
+
+
+def check_interrupts(root):
+    """Ctrl-C is Python's own again after simulations, of which the short one takes none from the long one."""
+    fine = {**CASE["powder"], "sizes": {"kind": "mono", "diameter": "0.3 mm"}}  # 10 s and more
+    (root / "long.json").write_text(json.dumps({**CASE, "powder": fine}))
+    ended = []
+
+    def simulate():
+        try:
+            talus.simulate(root / "long.json", root / "long")
+        except KeyboardInterrupt:
+            ended.append("interrupted")
+
+    simulating = threading.Thread(target=simulate)
+    simulating.start()
+    log = root / "long/log.txt"
+    while not (log.exists() and log.stat().st_size):  # it says so when its first steps are done
+        time.sleep(1e-2)
+    talus.simulate(root / "case.json", root / "short")
+    signal.raise_signal(signal.SIGINT)
+    simulating.join()
+    assert ended == ["interrupted"] and (root / "long/checkpoint.bin").exists(), ended
+    raises(KeyboardInterrupt, "", signal.raise_signal, signal.SIGINT)
 
 
 def check_projection():
