@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 #include "base/version.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/trials/simulate/run_folder.h"
@@ -83,6 +84,8 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = talus::base::Version();
   module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
              py::arg("fresh") = false);
+  // A forked process has OpenMP's team without its threads, which a loop would wait for.
+  module.def("stay_on_one_thread", [] { talus::base::SetMostLoopThreads(1); });
   module.def("is_worked_on", &talus::campaign::IsWorkedOn, py::arg("folder"));
   module.def("read_image", &talus::python::ReadImage, py::arg("file"));
   module.def("decode_image", &talus::python::DecodeImage, py::arg("bytes"));

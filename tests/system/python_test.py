@@ -135,6 +135,25 @@ def check_threads():
     assert len(ticks) > 10, ticks
 
 
+def check_forked_processes():
+    """A pool's process, forked after loops on several threads, draws and searches as its parent does."""
+    code = """
+import multiprocessing, numpy, talus
+spheres = numpy.column_stack([numpy.zeros((4000, 2)), numpy.full((4000, 2), 1e-3)])
+def drawn(_): return int(talus.project(spheres, %r).sum())
+def found(_):
+    strategy = talus.Strategy([{"name": "a", "min": 0, "max": 1}, {"name": "b", "min": 0, "max": 1}], {"kind": "gp"})
+    for _ in range(25):
+        for values in strategy.ask(): strategy.tell(values, (values["a"] - .3) ** 2 + values["b"])
+    return strategy.answer()["values"]
+expected = drawn(0), found(0)
+with multiprocessing.get_context("fork").Pool(1) as pool:
+    assert (pool.map_async(drawn, [0]).get(60)[0], pool.map_async(found, [0]).get(60)[0]) == expected
+""" % FRAME
+    told = os.environ | {"OMP_NUM_THREADS": "2", "PYTHONPATH": sys.argv[2]}
+    subprocess.run([sys.executable, "-c", code], env=told, check=True)
+
+
 def check_images_as_evaluations():
     """A strategy that is told images: columns of a height that is searched for."""
     def image(height):
@@ -349,6 +368,7 @@ def check_inference_data(campaign):
 check_ask_tell()
 check_ends()
 check_threads()
+check_forked_processes()
 check_images_as_evaluations()
 check_projection()
 check_module()
