@@ -197,11 +197,18 @@ class Campaign:
         return name, position, json.loads(frame) if frame else {}
 
     def _on_plate(self, images, frame, lead):
-        """Images of a frame with coordinates: x from the plate's centre, z above the plate [m]."""
+        """Images of a frame with coordinates: x from the plate's centre, z above the plate [m]; a film's strip as its
+        pictures, whose frame the attributes are."""
         import numpy
         import xarray
         images = numpy.asarray(images)
         height, width = images.shape[-2:]
+        count = frame.get("pictures") or 1
+        if count > 1:
+            width //= count
+            images = numpy.moveaxis(images.reshape(*images.shape[:-1], count, width), -2, -3)
+            lead = {**lead, "picture": range(1, count + 1)}
+            frame = {key: value for key, value in frame.items() if key != "pictures"} | {"width_px": width}
         pixel = frame["pixel_size"]
         x = (numpy.arange(width) + .5 - frame["center_x_px"]) * pixel
         z = (frame["baseline_px"] - numpy.arange(height) - .5) * pixel
@@ -220,7 +227,7 @@ class Campaign:
 
     def profiles(self, experiment=None):
         """All profiles of an experiment, by default the first [xarray.DataArray: trial, z, x], with x from
-        the plate's centre and z above it in metres."""
+        the plate's centre and z above it in metres; of a film [trial, picture, z, x]."""
         import numpy
         name, _, frame = self._frame(experiment)
         table = self.trials()
@@ -231,7 +238,8 @@ class Campaign:
         return self._on_plate(numpy.stack([self.profile(i) for i in ids]), frame, {"trial": ids})
 
     def aehp(self, experiment=None):
-        """An experiment's average profile, by default the first's [xarray.DataArray: z, x]."""
+        """An experiment's average profile, by default the first's [xarray.DataArray: z, x]; of a film its pictures
+        [picture, z, x], from 1."""
         name, position, frame = self._frame(experiment)
         png = self._query("select aehp_png from experiments where position = ?", position)[0][0]
         if not png:
