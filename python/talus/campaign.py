@@ -5,7 +5,10 @@ import numbers
 import operator
 import os
 import pathlib
+import re
+import shlex
 import sqlite3
+import sys
 
 from . import program
 from ._core import ConfigError, decode_image, is_worked_on
@@ -18,7 +21,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     `out` is its folder, by default the spec's name without ending. A dictionary is kept beside it as OUT.json, which
     its relative paths are meant from. `progress`: a function that is called
     with each event (a dictionary, as `talus calibrate --json` has them a line), True for a line on
-    standard error, False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
+    standard error and, at the end, the answer's warnings; False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
@@ -36,7 +39,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
         if is_new and not (folder / "journal.sqlite").exists():
             file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
         raise
-    return Campaign(folder)
+    return Campaign(folder)._warned(progress)
 
 
 def _write_spec(spec, file):
@@ -114,6 +117,20 @@ class Campaign:
         """result.json as a dictionary; None before the campaign has ended once."""
         file = self.folder / "result.json"
         return json.loads(file.read_text()) if file.exists() else None
+
+    @property
+    def warnings(self):
+        """What to know before trusting the result, in words, the gravest first: a list, empty before there is one."""
+        def named(text):
+            return re.sub(r"(talus [a-z-]+ )DIR\b", lambda found: found[1] + shlex.quote(str(self.folder)), text)
+
+        return [named(warning["text"]) for warning in (self.result or {}).get("warnings", [])]
+
+    def _warned(self, progress):
+        if progress is True:
+            for text in self.warnings:
+                print(f"warning: {text}", file=sys.stderr)
+        return self
 
     def trials(self):
         """One row a trial, by id: what it was, its parameters and its metrics [pandas.DataFrame]. Units
@@ -275,7 +292,7 @@ class Campaign:
         """Goes on, or extends a finished campaign; `progress` as of calibrate."""
         program.run(["resume", self.folder] +
                     (["--add-simulations", add_simulations] if add_simulations is not None else []), progress)
-        return self
+        return self._warned(progress)
 
     def report(self):
         """Writes the report and returns its path."""
@@ -302,7 +319,8 @@ class Campaign:
         lines = [f"<talus.Campaign \"{self.name}\", {self.state}, {count} trials, in {self.folder}"]
         lines += [f"  {name}" + (f" {value}" if value else "") + (f" (90 %: {span})" if span else "")
                   for name, value, span in self._rows()]
-        return "\n".join([*lines, "  " + self._said()]) + ">"
+        lines += ["  " + self._said(), *(f"  warning: {text}" for text in self.warnings)]
+        return "\n".join(lines) + ">"
 
     def _repr_html_(self):
         count = self._query("select count(*) from trials")[0][0]
@@ -310,4 +328,5 @@ class Campaign:
         return (f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.state)}, {count} trials, in "
                 f"<code>{html.escape(str(self.folder))}</code></p><table><thead><tr><th>parameter</th><th>recommended</th>"
                 f"<th>90&nbsp;%, for all together</th></tr></thead><tbody>{rows}</tbody></table>"
-                f"<p>{html.escape(self._said())}</p>")
+                f"<p>{html.escape(self._said())}</p>" +
+                "".join(f"<p><b>warning:</b> {html.escape(text)}</p>" for text in self.warnings))

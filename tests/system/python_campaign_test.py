@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """python_campaign_test.py TALUS MODULE_DIR: the Python module runs campaigns and reads them."""
+import contextlib
+import io
 import json
 import os
 import pathlib
@@ -7,6 +9,7 @@ import sqlite3
 import sys
 import tempfile
 import types
+import warnings
 
 sys.path.insert(0, sys.argv[2])
 import numpy
@@ -38,6 +41,7 @@ def check_campaign(root):
     assert campaign.result["parameters"][0]["name"] == "sliding_friction"
     assert campaign.spec["budget"]["simulations"] == 4
     check_profiles(campaign)
+    check_warnings(campaign)
     raises(FileNotFoundError, "posterior", campaign.posterior)
     raises(FileNotFoundError, "holds no campaign", talus.Campaign, root)
     raises(talus.ConfigError, "out: is needed", talus.calibrate, spec)
@@ -122,6 +126,31 @@ def check_film(root):
         powder = film.x[(film[place] < 128).any("z")]
         assert abs(float(powder[0]) + 3e-3) < 2e-4, powder  # beside the wall, within two pixels
         assert talus.compare(campaign.profiles()[0, place].values, film[place].values, film.attrs)["sad_mm2"] > 0
+
+
+def check_warnings(campaign):
+    """What is doubtful is shown with the answer, warned of by what stands on it, and no part of an error."""
+    words = "only 10 grains across the plate"
+    assert any(words in text for text in campaign.warnings), campaign.warnings
+    assert f"warning: {words}" in repr(campaign) and f"<b>warning:</b> {words}" in campaign._repr_html_()
+    said = io.StringIO()
+    with contextlib.redirect_stderr(said):
+        campaign.resume()
+    assert f"warning: {words}" in said.getvalue(), said.getvalue()
+    stand_in = campaign.folder.parent / "stand_in"
+    stand_in.write_text("#!/bin/sh\necho warning: doubtful >&2\n"
+                        "case $3 in *0.5) echo {};; *) echo talus: broken >&2; exit 1;; esac\n")
+    stand_in.chmod(0o755)
+    program, os.environ["TALUS_PROGRAM"] = os.environ["TALUS_PROGRAM"], str(stand_in)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        campaign.consider(sliding_friction=0.5)
+        try:
+            campaign.consider(sliding_friction=0.6)
+        except talus.Error as error:
+            assert str(error) == "broken", error
+    assert [(str(one.message), one.filename) for one in caught] == [("doubtful", __file__)] * 2, caught
+    os.environ["TALUS_PROGRAM"] = program
 
 
 def check_inference_data(campaign):
