@@ -53,6 +53,27 @@ def _write_spec(spec, file):
     return is_new
 
 
+def _stated(value):
+    """Without what nobody has stated, at any depth: nulls and empty texts and lists, which a spec does not take."""
+    if isinstance(value, list):
+        return [_stated(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _stated(item) for key, item in value.items() if item is not None and item not in ("", [])}
+    return value
+
+
+def _taken_again(spec):
+    """A spec with all its defaults, as specs may have them: not beside what takes their place."""
+    spec = _stated(spec)
+    experiments = spec.get("experiments") or [spec["experiment"]]
+    if not any(images in one for one in experiments for images in ("photos", "runs", "map", "film")):
+        spec.pop("objective", None)  # of images
+    grains = spec.get("coarse_graining", {})
+    if "scale_factors" in grains:
+        grains.pop("scale_factor", None)
+    return spec
+
+
 class Campaign:
     """The campaign in a folder that `talus calibrate` has made. Reads only, but for resume and next, so
     it may be running."""
@@ -88,8 +109,8 @@ class Campaign:
 
     @property
     def spec(self):
-        """The spec as it was understood, all defaults filled in: a dictionary."""
-        return json.loads(self._query("select spec_json from campaign")[0][0])
+        """The spec as it was understood, all defaults filled in: a dictionary that calibrate takes, changed or not."""
+        return _taken_again(json.loads(self._query("select spec_json from campaign")[0][0]))
 
     @property
     def parameters(self):

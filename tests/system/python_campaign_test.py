@@ -40,6 +40,7 @@ def check_campaign(root):
     assert trials.attrs["units"]["sad_mm2"] == "mm2" and trials.attrs["ranges"]["sliding_friction"] == (0.1, 0.9)
     assert campaign.result["parameters"][0]["name"] == "sliding_friction"
     assert campaign.spec["budget"]["simulations"] == 4
+    check_spec(campaign)
     check_profiles(campaign)
     check_warnings(campaign)
     raises(FileNotFoundError, "posterior", campaign.posterior)
@@ -126,6 +127,28 @@ def check_film(root):
         powder = film.x[(film[place] < 128).any("z")]
         assert abs(float(powder[0]) + 3e-3) < 2e-4, powder  # beside the wall, within two pixels
         assert talus.compare(campaign.profiles()[0, place].values, film[place].values, film.attrs)["sad_mm2"] > 0
+
+
+def check_spec(campaign):
+    """A campaign's spec, changed, is one of another: with a parameter held fixed, several grain sizes, numbers alone."""
+    again = campaign.spec
+    again["seed"] = 5
+    again["budget"]["simulations"] = 1
+    again["parameters"]["rolling_friction"] = {"fixed": 0.1}
+    again["coarse_graining"] = {"scale_factors": [1.4, 1.2]}
+    again["powder"]["sizes"]["diameter"] = "0.7 mm"
+    again["strategy"] = {"kind": "auto"}
+    root = campaign.folder.parent
+    second = talus.calibrate(again, out=root / "second", progress=False)
+    again = second.spec
+    again["seed"] = 6
+    del again["experiment"], again["objective"]
+    again["experiments"] = [{"name": "heap", "plate_diameter": "10 mm",
+                             "height": {"values": ["2 mm", "2.2 mm", "2.1 mm"]}}]
+    third = talus.calibrate(again, out=root / "third", progress=False)
+    numbers = third.spec
+    numbers["seed"] = 7
+    assert len(talus.calibrate(numbers, out=root / "fourth", progress=False).trials()) == 1
 
 
 def check_warnings(campaign):
