@@ -193,7 +193,8 @@ class Campaign:
 
     def datasets(self):
         """The groups of to_inference_data() as xarray datasets: "posterior" (chain, draw) and
-        "observed_data", the numbers that were measured."""
+        "observed_data", the numbers that were measured, with standard_error and its degrees_of_freedom (0: it was
+        stated) in attrs."""
         import xarray
         draws = self.posterior()
         posterior = xarray.Dataset({name: (("chain", "draw"), draws[name].to_numpy()[None, :],
@@ -203,12 +204,12 @@ class Campaign:
                                    coords={"chain": [0], "draw": range(len(draws))},
                                    attrs={"campaign": self.name, "created_by": "talus"})
         groups = {"posterior": posterior}
-        numbers = self._query("select e.name, s.name, s.value, s.standard_error from experiment_scalars s"
-                              " join experiments e on e.position = s.experiment order by s.experiment, s.position")
+        numbers = self._query("select e.name, s.name, s.value, s.standard_error, s.degrees_of_freedom"
+                              " from experiment_scalars s join experiments e on e.position = s.experiment order by s.experiment, s.position")
         if numbers:
             groups["observed_data"] = xarray.Dataset(
-                {f"{experiment}: {name}": ((), value, {"standard_error": error})
-                 for experiment, name, value, error in numbers})
+                {f"{experiment}: {name}": ((), value, {"standard_error": error, "degrees_of_freedom": degrees})
+                 for experiment, name, value, error, degrees in numbers})
         return groups
 
     def to_inference_data(self):

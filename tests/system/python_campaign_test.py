@@ -148,7 +148,13 @@ def check_spec(campaign):
     third = talus.calibrate(again, out=root / "third", progress=False)
     numbers = third.spec
     numbers["seed"] = 7
-    assert len(talus.calibrate(numbers, out=root / "fourth", progress=False).trials()) == 1
+    fourth = talus.calibrate(numbers, out=root / "fourth", progress=False)
+    assert len(fourth.trials()) == 1
+    (fourth.folder / "posterior.csv").write_text("sliding_friction\n0.5\n")
+    measured = fourth.datasets()["observed_data"]["heap: height_m"]
+    # Their mean; their sd, 0.1 mm, over the square root of 3, by the two degrees that three heaps leave.
+    assert abs(float(measured) - 2.1e-3) < 1e-12 and abs(measured.attrs["standard_error"] - 1e-4 / 3**.5) < 1e-12
+    assert measured.attrs["degrees_of_freedom"] == 2, measured.attrs
 
 
 def check_warnings(campaign):
