@@ -15,9 +15,10 @@ def program():
     found = os.environ.get("TALUS_PROGRAM") or shutil.which("talus")
     if found is None:
         raise FileNotFoundError("the program `talus` is not on the path; put it there, or name it in TALUS_PROGRAM")
-    if shutil.which(found) is None:
+    file = shutil.which(found)  # a name on the path is one, too
+    if file is None:
         raise FileNotFoundError(f"TALUS_PROGRAM={found}: is no program; name `talus`")
-    return os.path.abspath(found)
+    return os.path.abspath(file)
 
 
 def path(name):

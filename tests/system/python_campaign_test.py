@@ -42,6 +42,7 @@ def check_campaign(root):
     assert campaign.spec["budget"]["simulations"] == 4
     check_spec(campaign)
     check_profiles(campaign)
+    check_program(campaign)
     check_warnings(campaign)
     raises(FileNotFoundError, "posterior", campaign.posterior)
     raises(FileNotFoundError, "holds no campaign", talus.Campaign, root)
@@ -155,6 +156,16 @@ def check_spec(campaign):
     # Their mean; their sd, 0.1 mm, over the square root of 3, by the two degrees that three heaps leave.
     assert abs(float(measured) - 2.1e-3) < 1e-12 and abs(measured.attrs["standard_error"] - 1e-4 / 3**.5) < 1e-12
     assert measured.attrs["degrees_of_freedom"] == 2, measured.attrs
+
+
+def check_program(campaign):
+    """TALUS_PROGRAM is a file, or a name on the path."""
+    program, path = os.environ["TALUS_PROGRAM"], os.environ["PATH"]
+    os.environ.update(TALUS_PROGRAM="talus", PATH=os.path.dirname(program) + ":" + path)
+    assert campaign.consider(sliding_friction=0.5)["values"] == {"sliding_friction": 0.5}
+    os.environ["TALUS_PROGRAM"] = "no_talus"
+    raises(FileNotFoundError, "no_talus: is no program", campaign.consider)
+    os.environ.update(TALUS_PROGRAM=program, PATH=path)
 
 
 def check_warnings(campaign):
