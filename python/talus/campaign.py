@@ -296,13 +296,16 @@ class Campaign:
     def next(self, candidates=None, simulate=False, budget=None):
         """What to do next, what leaves least first [pandas.DataFrame]: the share of the ranges' volume that
         is expected to remain, bits, cost, and the width of each range that it leaves (in shares of what is searched; now: attrs["width_90"]).
-        `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds."""
+        `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds, or
+        as long as a text with a unit says, such as "2 min"."""
         import pandas
         if budget is not None and not simulate:
             raise ConfigError("budget: is for simulate=True")
+        if isinstance(budget, numbers.Real):
+            budget = f"{budget} s"
         table = program.ask("next", self.folder, *([] if candidates is None else [program.path(candidates)]),
                             *(["--simulate"] if simulate else []),
-                            *([] if budget is None else ["--budget", f"{budget} s"]))
+                            *([] if budget is None else ["--budget", budget]))
         rows = [{**{key: row[key] for key in ("name", "kind", "what", "remaining", "bits", "num_simulations", "core_time_s")},
                  **{f"width_{name}": (row["width_90"] or {}).get(name) for name in self.parameters}}
                 for row in table["candidates"]]

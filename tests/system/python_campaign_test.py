@@ -50,6 +50,8 @@ def check_campaign(root):
     (root / "bad.json").write_text("{}")
     raises(talus.ConfigError, "powder", talus.calibrate, root / "bad.json", out=root / "bad", progress=False)
     raises(talus.ConfigError, "budget: is for simulate", campaign.next, budget=3)
+    for budget, words in ((0, '"0 s"'), ("0 min", '"0 min"'), ("long", "long")):
+        raises(talus.ConfigError, words, campaign.next, simulate=True, budget=budget)
     raises(talus.ConfigError, "sliding_friction", campaign.consider, sliding_friction=3.0)
     for bad, words in ((numpy.nan, "sliding_friction"), ("wide", "does not start with a number"), (None, "NoneType"),
                        ([.5], "it is a list")):
