@@ -75,8 +75,8 @@ def _taken_again(spec):
 
 
 class Campaign:
-    """The campaign in a folder that `talus calibrate` has made. Reads only, but for resume and next, so
-    it may be running."""
+    """The campaign in a folder that `talus calibrate` has made. It may be running: only resume, next
+    and report write there."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder).absolute()
