@@ -155,7 +155,7 @@ class Campaign:
 
     def trials(self):
         """One row a trial, by id: what it was, its parameters and its metrics [pandas.DataFrame]. Units
-        of the columns stand in attrs["units"], the searched ranges in attrs["ranges"]."""
+        of the columns stand in attrs["units"], "" of a pure number, the searched ranges in attrs["ranges"]."""
         import pandas
         columns = ["trial", "kind", "status", "reason", "experiment", "scale_factor", "seed", "duration_s",
                    "cpu_s", "num_particles", "num_steps"]
@@ -170,7 +170,7 @@ class Campaign:
         for name, unit in self._query("select name, max(unit) from metrics group by name order by name"):
             table[name] = pandas.Series(dict(self._query(
                 "select trial, value from metrics where name = ?", name)), dtype=float)
-            units[name] = unit
+            units[name] = "" if unit == "-" else unit
         table.attrs = {"units": units, "ranges": self.ranges}
         return table
 
