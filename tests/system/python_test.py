@@ -108,15 +108,20 @@ def check_ends():
 
 
 def check_threads():
-    """Others run while a heap is drawn: of 60 ms, none of which Python's own thread could have, some are theirs."""
+    """Others run while a heap is drawn or compared: of 60 ms, none of which Python's own thread could have, some are
+    theirs."""
     spheres = numpy.column_stack([numpy.zeros((40000, 2)), numpy.full((40000, 2), 1e-3)])
-    ticks = []
-    drawing = threading.Thread(target=lambda: talus.project(spheres, FRAME, 2000))
-    drawing.start()
-    while drawing.is_alive():
-        ticks.append(time.monotonic())
-        time.sleep(1e-3)
-    assert len(ticks) > 10, ticks
+    large = numpy.full((4000, 6000), 255, numpy.uint8)
+    large[2000:, 1000:5000] = 0
+    frame = {**FRAME, "width_px": 6000, "height_px": 4000, "center_x_px": 3000, "baseline_px": 3900, "pixel_size": 2e-6}
+    for work in (lambda: talus.project(spheres, FRAME, 2000), lambda: talus.compare(large, large, frame)):
+        ticks = []
+        working = threading.Thread(target=work)
+        working.start()
+        while working.is_alive():
+            ticks.append(time.monotonic())
+            time.sleep(1e-3)
+        assert len(ticks) > 10, ticks
 
 
 def check_forked_processes():
