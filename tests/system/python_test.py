@@ -73,7 +73,21 @@ def check_refusals():
         raises(talus.ConfigError, words, talus.Strategy, one, target=bad)
         raises(talus.ConfigError, words, talus.Strategy(one, target=image).tell, {"a": .5}, image=bad)
         raises(talus.ConfigError, words, talus.compare, bad, numpy.zeros((80, 120), numpy.uint8), FRAME)
+    raises(talus.ConfigError, "pixel_area: must be a number", talus.Strategy, one, target=image, pixel_area="4")
     strategy = talus.Strategy(one)
+    for bad in (0, 9, 1.0, 2**40, "1", True, None):
+        raises(talus.ConfigError, "count: must be a whole number from 1 to 8", strategy.ask, bad)
+    for bad in ("no", 1, None):
+        raises(talus.ConfigError, "failed: must be True or False", strategy.tell, {"a": .5}, failed=bad)
+    strategy.tell({"a": .5}, failed=numpy.bool_(True))
+    assert len(strategy.ask(numpy.int32(2))) == 2
+    for bad in (0, 3601, 16.0, 2**40, "4", True, None):
+        raises(talus.ConfigError, "num_views: must be a whole number", talus.project, numpy.zeros((0, 4)), FRAME, bad)
+    foreign = os.fsdecode(b"\xff.png")
+    for call in (lambda: talus.read_image(foreign), lambda: talus.simulate(foreign, "x"),
+                 lambda: talus.simulate("x", foreign)):
+        raises(talus.ConfigError, "is no name in UTF-8", call)
+    raises(talus.ConfigError, "fresh: must be True or False", talus.simulate, "x", "y", "no")
     raises(talus.ConfigError, "no target", strategy.tell, {"a": .5}, 1.0, image=image)
     raises(talus.ConfigError, "values: must be a dictionary", strategy.tell, [.5], 1.0)
     raises(talus.ConfigError, "a: must be a number; it is a str", strategy.tell, {"a": "x"}, 1.0)
