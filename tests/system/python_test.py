@@ -224,6 +224,10 @@ def check_projection():
     raises(talus.ConfigError, "give metres", talus.project, numpy.array([[0, 0, 1, 2.]]), FRAME)
     for bad in (numpy.zeros((1, 4), complex), [["a"] * 4], None):
         raises(talus.ConfigError, "must be numbers", talus.project, bad, FRAME)
+    one_of_two = numpy.ma.masked_array([[0, 0, 1e-3, 2e-3]] * 2, mask=[[True] * 4, [False] * 4])
+    raises(talus.ConfigError, "spheres: is a masked array", talus.project, one_of_two, FRAME)
+    assert (talus.project(one_of_two[1:], FRAME) == image).all()  # nothing of it is masked
+    raises(talus.ConfigError, "heap: is a masked array", talus.compare, numpy.ma.masked_equal(image, 0), image, FRAME)
     assert (talus.project(numpy.array([[1e300, 0, -1e300, 1e-3]]), FRAME) == 255).all()  # far away
     raises(talus.ConfigError, "num_views", talus.project, numpy.zeros((0, 4)),
            {**FRAME, "width_px": 65500, "height_px": 3000}, 3600)
