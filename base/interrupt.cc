@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <atomic>
+#include <mutex>
 
 namespace talus::base {
 namespace {
@@ -20,24 +21,33 @@ void Note(int signal) {
   }
 }
 
-void Handle(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = 0;  // no SA_RESTART: a wait for trials must end
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+// Guards live in several threads where Python runs several simulations.
+std::mutex changing;
+int num_guards = 0;
+struct sigaction before_int = {};  // the caller's own: Python's, nohup's, the default
+struct sigaction before_term = {};
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
+  const std::lock_guard lock(changing);
+  if (num_guards++ > 0) return;
   num_interrupts = 0;
   terminated = false;
-  Handle(Note);
+  struct sigaction action {};
+  action.sa_handler = Note;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = 0;  // no SA_RESTART: a wait for trials must end
+  sigaction(SIGINT, &action, &before_int);
+  sigaction(SIGTERM, &action, &before_term);
 }
 
-InterruptGuard::~InterruptGuard() { Handle(SIG_DFL); }
+InterruptGuard::~InterruptGuard() {
+  const std::lock_guard lock(changing);
+  if (--num_guards > 0) return;
+  sigaction(SIGINT, &before_int, nullptr);
+  sigaction(SIGTERM, &before_term, nullptr);
+}
 
 Interrupt InterruptGuard::Asked() const {
   if (terminated || num_interrupts >= 2) return Interrupt::kDrop;

@@ -9,7 +9,8 @@ enum class Interrupt {
   kDrop    // Ctrl-C again, or SIGTERM: stop at once
 };
 
-// While one lives, the two signals are noted instead of ending the program. One at a time.
+// While one lives, the two signals are noted instead of ending the program; afterwards they do
+// again what they did before. Several may live, in several threads: a signal is meant for them all.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -12,7 +12,19 @@ namespace talus::python {
 
 namespace py = pybind11;
 
+namespace {
+
+// Converted, a masked array would lose its mask without a word.
+void RefuseMasked(const py::handle& array, const std::string& name) {
+  if (py::module_::import("numpy").attr("ma").attr("is_masked")(array).cast<bool>()) {
+    throw base::ConfigError(name + ": is a masked array; take out what is masked, or fill it");
+  }
+}
+
+}  // namespace
+
 imaging::GrayImage ImageOf(const py::handle& array, const std::string& name) {
+  RefuseMasked(array, name);
   const py::array any = py::array::ensure(array);
   if (!any) throw base::ConfigError(name + ": must be an array of bytes");
   if (!py::isinstance<py::array_t<std::uint8_t>>(any)) {
@@ -42,6 +54,7 @@ GrayArray ArrayOf(const imaging::GrayImage& image) {
 }
 
 std::vector<base::Sphere> SpheresOf(const py::handle& array, double plate_diameter) {
+  RefuseMasked(array, "spheres");
   const auto table = py::array_t<double, py::array::c_style>::ensure(array);
   if (!table || table.ndim() != 2 || table.shape(1) != 4) {
     throw base::ConfigError(

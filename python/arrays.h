@@ -15,12 +15,13 @@ namespace talus::python {
 using GrayArray = pybind11::array_t<std::uint8_t, pybind11::array::c_style>;
 
 // Two dimensions of bytes; anything else throws ConfigError, which calls it `name`. Numbers of
-// another type are not converted: shares from 0 to 1 and masks would be read as black.
+// another type are not converted: shares from 0 to 1 and masks would be read as black. A masked
+// array is refused.
 imaging::GrayImage ImageOf(const pybind11::handle& array, const std::string& name);
 GrayArray ArrayOf(const imaging::GrayImage& image);
 
 // x, y, z and diameter [m], one sphere a row. Throws ConfigError where a number is none, or a
-// sphere is wider than the plate, as in a table in millimetres.
+// sphere is wider than the plate, as in a table in millimetres, or some are masked.
 std::vector<base::Sphere> SpheresOf(const pybind11::handle& array, double plate_diameter);
 
 // NaN and infinity are numbers. Throws ConfigError that starts with `name` where it is none.

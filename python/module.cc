@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 #include "base/version.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/trials/simulate/run_folder.h"
@@ -19,32 +20,38 @@ namespace {
 
 namespace py = pybind11;
 
+// Other Python threads run while it works, on no object of Python.
+template <class Work>
+auto Asleep(Work&& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
+
 // Ctrl-C is Python's own error, which a loop over cases does not take for a failed one.
 void Simulate(const std::string& file, const std::string& folder, bool fresh) {
   try {
-    const py::gil_scoped_release release;
-    trials::Simulate(file, {.run = {.folder = folder, .fresh = fresh, .quiet = true}});
+    Asleep([&] {
+      trials::Simulate(file, {.run = {.folder = folder, .fresh = fresh, .quiet = true}});
+    });
   } catch (const base::Interrupted& interrupted) {
     PyErr_SetString(PyExc_KeyboardInterrupt, interrupted.what());
     throw py::error_already_set();
   }
 }
 
-GrayArray ReadImage(const std::string& file) { return ArrayOf(imaging::ReadGrayImage(file)); }
+GrayArray ReadImage(const std::string& file) {
+  return ArrayOf(Asleep([&] { return imaging::ReadGrayImage(file); }));
+}
 
 GrayArray DecodeImage(const py::bytes& bytes) {
-  return ArrayOf(imaging::DecodeGrayImage(std::string(bytes), "the image"));
+  const std::string text(bytes);
+  return ArrayOf(Asleep([&] { return imaging::DecodeGrayImage(text, "the image"); }));
 }
 
 GrayArray Project(const py::object& spheres, const py::dict& frame, int num_views) {
   const imaging::Frame known = FrameOf(frame);
   const std::vector<base::Sphere> heap = SpheresOf(spheres, known.plate_diameter);
-  imaging::GrayImage image;
-  {
-    const py::gil_scoped_release release;
-    image = imaging::ProjectHeap(heap, known, num_views).image;
-  }
-  return ArrayOf(image);
+  return ArrayOf(Asleep([&] { return imaging::ProjectHeap(heap, known, num_views).image; }));
 }
 
 py::dict Compare(const py::object& heap, const py::object& reference, const py::dict& frame) {
@@ -58,9 +65,10 @@ py::dict Compare(const py::object& heap, const py::object& reference, const py::
     }
     return imaging::HeapImages{.profile = {.image = image, .frame = known}, .parts = {}};
   };
+  const imaging::HeapImages one = images("heap", heap), other = images("reference", reference);
   py::dict metrics;
   for (const imaging::Metric& metric :
-       imaging::CompareProfiles(images("heap", heap), images("reference", reference))) {
+       Asleep([&] { return imaging::CompareProfiles(one, other); })) {
     if (metric.value.defined()) {
       metrics[py::str(metric.name)] = metric.value.value;
     } else {
@@ -83,6 +91,8 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = talus::base::Version();
   module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
              py::arg("fresh") = false);
+  // A forked process has OpenMP's team without its threads, which a loop would wait for.
+  module.def("stay_on_one_thread", [] { talus::base::SetMostLoopThreads(1); });
   module.def("is_worked_on", &talus::campaign::IsWorkedOn, py::arg("folder"));
   module.def("read_image", &talus::python::ReadImage, py::arg("file"));
   module.def("decode_image", &talus::python::DecodeImage, py::arg("bytes"));

@@ -16,10 +16,11 @@ import os
 _unset = "OMP_WAIT_POLICY" not in os.environ
 if _unset:
     os.environ["OMP_WAIT_POLICY"] = "passive"
-from ._core import ConfigError, Error, __version__  # noqa: E402
+from ._core import ConfigError, Error, __version__, stay_on_one_thread  # noqa: E402
 
 if _unset:
     del os.environ["OMP_WAIT_POLICY"]
+os.register_at_fork(after_in_child=stay_on_one_thread)
 from .campaign import Campaign, calibrate  # noqa: E402
 from .heaps import compare, project, read_image, simulate  # noqa: E402
 from .strategy import Strategy  # noqa: E402

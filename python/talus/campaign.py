@@ -5,7 +5,10 @@ import numbers
 import operator
 import os
 import pathlib
+import re
+import shlex
 import sqlite3
+import sys
 
 from . import program
 from ._core import ConfigError, decode_image, is_worked_on
@@ -18,7 +21,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     `out` is its folder, by default the spec's name without ending. A dictionary is kept beside it as OUT.json, which
     its relative paths are meant from. `progress`: a function that is called
     with each event (a dictionary, as `talus calibrate --json` has them a line), True for a line on
-    standard error, False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
+    standard error and, at the end, the answer's warnings; False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
@@ -36,7 +39,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
         if is_new and not (folder / "journal.sqlite").exists():
             file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
         raise
-    return Campaign(folder)
+    return Campaign(folder)._warned(progress)
 
 
 def _write_spec(spec, file):
@@ -50,9 +53,30 @@ def _write_spec(spec, file):
     return is_new
 
 
+def _stated(value):
+    """Without what nobody has stated, at any depth: nulls and empty texts and lists, which a spec does not take."""
+    if isinstance(value, list):
+        return [_stated(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _stated(item) for key, item in value.items() if item is not None and item not in ("", [])}
+    return value
+
+
+def _taken_again(spec):
+    """A spec with all its defaults, as specs may have them: not beside what takes their place."""
+    spec = _stated(spec)
+    experiments = spec.get("experiments") or [spec["experiment"]]
+    if not any(images in one for one in experiments for images in ("photos", "runs", "map", "film")):
+        spec.pop("objective", None)  # of images
+    grains = spec.get("coarse_graining", {})
+    if "scale_factors" in grains:
+        grains.pop("scale_factor", None)
+    return spec
+
+
 class Campaign:
-    """The campaign in a folder that `talus calibrate` has made. Reads only, but for resume and next, so
-    it may be running."""
+    """The campaign in a folder that `talus calibrate` has made. It may be running: only resume, next
+    and report write there."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder).absolute()
@@ -85,8 +109,8 @@ class Campaign:
 
     @property
     def spec(self):
-        """The spec as it was understood, all defaults filled in: a dictionary."""
-        return json.loads(self._query("select spec_json from campaign")[0][0])
+        """The spec as it was understood, all defaults filled in: a dictionary that calibrate takes, changed or not."""
+        return _taken_again(json.loads(self._query("select spec_json from campaign")[0][0]))
 
     @property
     def parameters(self):
@@ -115,9 +139,23 @@ class Campaign:
         file = self.folder / "result.json"
         return json.loads(file.read_text()) if file.exists() else None
 
+    @property
+    def warnings(self):
+        """What to know before trusting the result, in words, the gravest first: a list, empty before there is one."""
+        def named(text):
+            return re.sub(r"(talus [a-z-]+ )DIR\b", lambda found: found[1] + shlex.quote(str(self.folder)), text)
+
+        return [named(warning["text"]) for warning in (self.result or {}).get("warnings", [])]
+
+    def _warned(self, progress):
+        if progress is True:
+            for text in self.warnings:
+                print(f"warning: {text}", file=sys.stderr)
+        return self
+
     def trials(self):
         """One row a trial, by id: what it was, its parameters and its metrics [pandas.DataFrame]. Units
-        of the columns stand in attrs["units"], the searched ranges in attrs["ranges"]."""
+        of the columns stand in attrs["units"], "" of a pure number, the searched ranges in attrs["ranges"]."""
         import pandas
         columns = ["trial", "kind", "status", "reason", "experiment", "scale_factor", "seed", "duration_s",
                    "cpu_s", "num_particles", "num_steps"]
@@ -132,7 +170,7 @@ class Campaign:
         for name, unit in self._query("select name, max(unit) from metrics group by name order by name"):
             table[name] = pandas.Series(dict(self._query(
                 "select trial, value from metrics where name = ?", name)), dtype=float)
-            units[name] = unit
+            units[name] = "" if unit == "-" else unit
         table.attrs = {"units": units, "ranges": self.ranges}
         return table
 
@@ -155,7 +193,8 @@ class Campaign:
 
     def datasets(self):
         """The groups of to_inference_data() as xarray datasets: "posterior" (chain, draw) and
-        "observed_data", the numbers that were measured."""
+        "observed_data", the numbers that were measured, with standard_error and its degrees_of_freedom (0: it was
+        stated) in attrs."""
         import xarray
         draws = self.posterior()
         posterior = xarray.Dataset({name: (("chain", "draw"), draws[name].to_numpy()[None, :],
@@ -165,12 +204,12 @@ class Campaign:
                                    coords={"chain": [0], "draw": range(len(draws))},
                                    attrs={"campaign": self.name, "created_by": "talus"})
         groups = {"posterior": posterior}
-        numbers = self._query("select e.name, s.name, s.value, s.standard_error from experiment_scalars s"
-                              " join experiments e on e.position = s.experiment order by s.experiment, s.position")
+        numbers = self._query("select e.name, s.name, s.value, s.standard_error, s.degrees_of_freedom"
+                              " from experiment_scalars s join experiments e on e.position = s.experiment order by s.experiment, s.position")
         if numbers:
             groups["observed_data"] = xarray.Dataset(
-                {f"{experiment}: {name}": ((), value, {"standard_error": error})
-                 for experiment, name, value, error in numbers})
+                {f"{experiment}: {name}": ((), value, {"standard_error": error, "degrees_of_freedom": degrees})
+                 for experiment, name, value, error, degrees in numbers})
         return groups
 
     def to_inference_data(self):
@@ -197,11 +236,18 @@ class Campaign:
         return name, position, json.loads(frame) if frame else {}
 
     def _on_plate(self, images, frame, lead):
-        """Images of a frame with coordinates: x from the plate's centre, z above the plate [m]."""
+        """Images of a frame with coordinates: x from the plate's centre, z above the plate [m]; a film's strip as its
+        pictures, whose frame the attributes are."""
         import numpy
         import xarray
         images = numpy.asarray(images)
         height, width = images.shape[-2:]
+        count = frame.get("pictures") or 1
+        if count > 1:
+            width //= count
+            images = numpy.moveaxis(images.reshape(*images.shape[:-1], count, width), -2, -3)
+            lead = {**lead, "picture": range(1, count + 1)}
+            frame = {key: value for key, value in frame.items() if key != "pictures"} | {"width_px": width}
         pixel = frame["pixel_size"]
         x = (numpy.arange(width) + .5 - frame["center_x_px"]) * pixel
         z = (frame["baseline_px"] - numpy.arange(height) - .5) * pixel
@@ -220,7 +266,7 @@ class Campaign:
 
     def profiles(self, experiment=None):
         """All profiles of an experiment, by default the first [xarray.DataArray: trial, z, x], with x from
-        the plate's centre and z above it in metres."""
+        the plate's centre and z above it in metres; of a film [trial, picture, z, x]."""
         import numpy
         name, _, frame = self._frame(experiment)
         table = self.trials()
@@ -231,7 +277,8 @@ class Campaign:
         return self._on_plate(numpy.stack([self.profile(i) for i in ids]), frame, {"trial": ids})
 
     def aehp(self, experiment=None):
-        """An experiment's average profile, by default the first's [xarray.DataArray: z, x]."""
+        """An experiment's average profile, by default the first's [xarray.DataArray: z, x]; of a film its pictures
+        [picture, z, x], from 1."""
         name, position, frame = self._frame(experiment)
         png = self._query("select aehp_png from experiments where position = ?", position)[0][0]
         if not png:
@@ -249,13 +296,16 @@ class Campaign:
     def next(self, candidates=None, simulate=False, budget=None):
         """What to do next, what leaves least first [pandas.DataFrame]: the share of the ranges' volume that
         is expected to remain, bits, cost, and the width of each range that it leaves (in shares of what is searched; now: attrs["width_90"]).
-        `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds."""
+        `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds, or
+        as long as a text with a unit says, such as "2 min"."""
         import pandas
         if budget is not None and not simulate:
             raise ConfigError("budget: is for simulate=True")
+        if isinstance(budget, numbers.Real):
+            budget = f"{budget} s"
         table = program.ask("next", self.folder, *([] if candidates is None else [program.path(candidates)]),
                             *(["--simulate"] if simulate else []),
-                            *([] if budget is None else ["--budget", f"{budget} s"]))
+                            *([] if budget is None else ["--budget", budget]))
         rows = [{**{key: row[key] for key in ("name", "kind", "what", "remaining", "bits", "num_simulations", "core_time_s")},
                  **{f"width_{name}": (row["width_90"] or {}).get(name) for name in self.parameters}}
                 for row in table["candidates"]]
@@ -267,7 +317,7 @@ class Campaign:
         """Goes on, or extends a finished campaign; `progress` as of calibrate."""
         program.run(["resume", self.folder] +
                     (["--add-simulations", add_simulations] if add_simulations is not None else []), progress)
-        return self
+        return self._warned(progress)
 
     def report(self):
         """Writes the report and returns its path."""
@@ -294,7 +344,8 @@ class Campaign:
         lines = [f"<talus.Campaign \"{self.name}\", {self.state}, {count} trials, in {self.folder}"]
         lines += [f"  {name}" + (f" {value}" if value else "") + (f" (90 %: {span})" if span else "")
                   for name, value, span in self._rows()]
-        return "\n".join([*lines, "  " + self._said()]) + ">"
+        lines += ["  " + self._said(), *(f"  warning: {text}" for text in self.warnings)]
+        return "\n".join(lines) + ">"
 
     def _repr_html_(self):
         count = self._query("select count(*) from trials")[0][0]
@@ -302,4 +353,5 @@ class Campaign:
         return (f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.state)}, {count} trials, in "
                 f"<code>{html.escape(str(self.folder))}</code></p><table><thead><tr><th>parameter</th><th>recommended</th>"
                 f"<th>90&nbsp;%, for all together</th></tr></thead><tbody>{rows}</tbody></table>"
-                f"<p>{html.escape(self._said())}</p>")
+                f"<p>{html.escape(self._said())}</p>" +
+                "".join(f"<p><b>warning:</b> {html.escape(text)}</p>" for text in self.warnings))

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy
 
 from . import _core
-from .plain import plain
+from .plain import path_text, plain, truth, whole
 
 # What stands beside a frame in result.json and in the attributes of Campaign.aehp().
 _BESIDE_FRAMES = {"file", "film", "long_name", "num_frames", "num_views", "sd_file"}
@@ -25,13 +25,13 @@ def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = F
 
     Raises ConfigError where the input or the folder is not in order, Error where the simulation fails.
     """
-    _core.simulate(os.fspath(file), os.fspath(folder), fresh)
+    _core.simulate(path_text(file), path_text(folder), truth(fresh, "fresh"))
 
 
 def read_image(file: str | os.PathLike) -> numpy.ndarray:
     """A grey image, such as a trial's `profile.png`: bytes (rows, columns), row by row from the top. Raises ConfigError
     for a file that is no image."""
-    return _core.read_image(os.fspath(file))
+    return _core.read_image(path_text(file))
 
 
 def project(spheres: numpy.ndarray, frame: Mapping[str, float], num_views: int = 16) -> numpy.ndarray:
@@ -39,12 +39,13 @@ def project(spheres: numpy.ndarray, frame: Mapping[str, float], num_views: int =
 
     `spheres`: an array (n, 4): x, y, z above the plate and diameter [m]. `frame`: a dictionary as in specs: width_px,
     height_px, pixel_size [m], center_x_px, baseline_px, plate_diameter [m]; `profile` of a trial's result.json and
-    `Campaign.aehp().attrs` are frames, too. `num_views`: over 180°, at least 1.
+    `Campaign.aehp().attrs` are frames, too. `num_views`: over 180°, 1 to 3600.
 
     Returns bytes (height_px, width_px), row by row from the top, 0 where all views see powder and 255 where none does.
-    Raises ConfigError for spheres that are no numbers or wider than the plate, and for a frame that is not in order.
+    Raises ConfigError for spheres that are no numbers or wider than the plate, for a frame that is not in order, and for
+    `num_views` that is no such number.
     """
-    return _core.project(spheres, _frame(frame), num_views)
+    return _core.project(spheres, _frame(frame), whole(num_views, "num_views", 1, 3600))
 
 
 def compare(heap: numpy.ndarray, reference: numpy.ndarray, frame: Mapping[str, float]) -> dict[str, float | None]:

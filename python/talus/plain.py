@@ -1,7 +1,10 @@
-"""Values as JSON has them, out of what people have in notebooks."""
+"""Values as JSON and the C++ part have them, out of what people have in notebooks."""
 import math
 import numbers
+import os
 from collections.abc import Mapping
+
+import numpy
 
 from ._core import ConfigError
 
@@ -23,3 +26,27 @@ def plain(value, name):
             raise ConfigError(f"{name}: is {value}, must be a finite number")
         return float(value)
     raise ConfigError(f"{name}: is a {type(value).__name__}, which JSON has not: {value!r}")
+
+
+def whole(value, name, low, high):
+    """A whole number from `low` to `high`, which may be numpy's."""
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, numbers.Integral) or not low <= value <= high:
+        raise ConfigError(f"{name}: must be a whole number from {low} to {high}; it is {value!r}")
+    return int(value)
+
+
+def truth(value, name):
+    """True or False, which may be numpy's."""
+    if not isinstance(value, (bool, numpy.bool_)):
+        raise ConfigError(f"{name}: must be True or False; it is {value!r}")
+    return bool(value)
+
+
+def path_text(file):
+    """A path as UTF-8 has it, as results and messages do."""
+    text = os.fsdecode(file)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ConfigError(f"{text!r}: is no name in UTF-8; rename it") from None
+    return text

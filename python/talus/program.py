@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import warnings
 
 from ._core import ConfigError, Error
 
@@ -14,14 +15,34 @@ def program():
     found = os.environ.get("TALUS_PROGRAM") or shutil.which("talus")
     if found is None:
         raise FileNotFoundError("the program `talus` is not on the path; put it there, or name it in TALUS_PROGRAM")
-    if shutil.which(found) is None:
+    file = shutil.which(found)  # a name on the path is one, too
+    if file is None:
         raise FileNotFoundError(f"TALUS_PROGRAM={found}: is no program; name `talus`")
-    return os.path.abspath(found)
+    return os.path.abspath(file)
 
 
 def path(name):
     """A file or folder as an argument, never a flag."""
     return os.path.abspath(name) if os.fspath(name).startswith("-") else name
+
+
+def _warn(text):
+    """A warning that names the user's own line, the first outside of this package."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_globals.get("__package__") == __package__:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, stacklevel=level)
+
+
+def _without_warnings(words):
+    """What a verb says on standard error but for its warnings, which become Python's."""
+    others = []
+    for line in words.splitlines():
+        if line.startswith("warning: "):
+            _warn(line.removeprefix("warning: "))
+        else:
+            others.append(line)
+    return "\n".join(others)
 
 
 def _raise(code, text):
@@ -36,8 +57,9 @@ def _raise(code, text):
 def call(*arguments):
     """What a verb prints."""
     ended = subprocess.run([program(), *map(str, arguments)], capture_output=True, text=True)
+    words = _without_warnings(ended.stderr)
     if ended.returncode:
-        _raise(ended.returncode, ended.stderr)
+        _raise(ended.returncode, words)
     return ended.stdout
 
 
@@ -95,6 +117,6 @@ def run(arguments, progress):
             process.send_signal(signal.SIGTERM)
             process.communicate()  # so that it need not wait for us to read
             raise
-        words = process.stderr.read()
+        words = _without_warnings(process.stderr.read())
     if process.returncode:
         _raise(process.returncode, words)

@@ -3,7 +3,7 @@ import numbers
 from collections.abc import Mapping
 
 from . import _core
-from .plain import plain
+from .plain import plain, truth, whole
 
 
 def _named(parameter, place):
@@ -35,24 +35,25 @@ class Strategy:
         if isinstance(parameters, (str, bytes, Mapping)) or not hasattr(parameters, "__iter__"):
             raise _core.ConfigError("parameters: must be a list of dictionaries with name, min and max")
         named = [_named(parameter, place) for place, parameter in enumerate(parameters)]
-        if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or not 0 <= seed < 2**64:
-            raise _core.ConfigError("seed: must be a whole number from 0 to 2^64 - 1")
+        seed = whole(seed, "seed", 0, 2**64 - 1)
+        if not isinstance(pixel_area, numbers.Real):
+            raise _core.ConfigError(f"pixel_area: must be a number; it is a {type(pixel_area).__name__}")
         if options is not None and not isinstance(options, Mapping):
             raise _core.ConfigError("options: must be a dictionary, such as {\"kind\": \"gp\"}")
-        self._core = _core.Strategy(named, plain(options or {}, "options"), int(seed), target, pixel_area)
+        self._core = _core.Strategy(named, plain(options or {}, "options"), seed, target, float(pixel_area))
         self._names = [parameter["name"] for parameter in named]
 
     def ask(self, count=1):
         """Up to `count` (1 to 8) sets to evaluate; fewer, or none, when there are no more. Each is to be told, if only
         that it failed: the search waits for it."""
-        return self._core.ask(count)
+        return self._core.ask(whole(count, "count", 1, 8))
 
     def tell(self, values, value=None, image=None, failed=False):
         """One evaluation: its value, which is minimised, or its image; or that it failed. NaN and infinity count as
         failed, too. Levels and fixed values must be those that the strategy has."""
         if not isinstance(values, Mapping):
             raise _core.ConfigError("values: must be a dictionary of the parameters by name")
-        self._core.tell(dict(values), value, image, failed)
+        self._core.tell(dict(values), value, image, truth(failed, "failed"))
 
     def stop_reason(self):
         """Why going on is not worth it, or not possible: the strategy has no more points, or the first eight

@@ -1,35 +1,20 @@
 #!/usr/bin/env python3
-"""python_test.py TALUS MODULE_DIR: the Python module reads campaigns, drives strategies, simulates and
-compares."""
+"""python_test.py TALUS MODULE_DIR: the Python module drives strategies, simulates, draws and compares."""
 import json
 import os
 import pathlib
-import sqlite3
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
 import time
-import types
 
 sys.path.insert(0, sys.argv[2])
 import numpy
 
 import talus
-
-FRAME = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
-         "plate_diameter": 0.01}
-CASE = {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g",
-                   "material": {"density": 2500, "youngs_modulus": "1 MPa"}}, "frame": FRAME}
-
-
-def raises(error, words, call, *arguments, **keys):
-    try:
-        call(*arguments, **keys)
-    except error as caught:
-        assert words in str(caught), caught
-    else:
-        raise AssertionError(f"no {error.__name__} from {call}")
+from python_case import CASE, FRAME, raises
 
 
 def check_ask_tell():
@@ -88,7 +73,21 @@ def check_refusals():
         raises(talus.ConfigError, words, talus.Strategy, one, target=bad)
         raises(talus.ConfigError, words, talus.Strategy(one, target=image).tell, {"a": .5}, image=bad)
         raises(talus.ConfigError, words, talus.compare, bad, numpy.zeros((80, 120), numpy.uint8), FRAME)
+    raises(talus.ConfigError, "pixel_area: must be a number", talus.Strategy, one, target=image, pixel_area="4")
     strategy = talus.Strategy(one)
+    for bad in (0, 9, 1.0, 2**40, "1", True, None):
+        raises(talus.ConfigError, "count: must be a whole number from 1 to 8", strategy.ask, bad)
+    for bad in ("no", 1, None):
+        raises(talus.ConfigError, "failed: must be True or False", strategy.tell, {"a": .5}, failed=bad)
+    strategy.tell({"a": .5}, failed=numpy.bool_(True))
+    assert len(strategy.ask(numpy.int32(2))) == 2
+    for bad in (0, 3601, 16.0, 2**40, "4", True, None):
+        raises(talus.ConfigError, "num_views: must be a whole number", talus.project, numpy.zeros((0, 4)), FRAME, bad)
+    foreign = os.fsdecode(b"\xff.png")
+    for call in (lambda: talus.read_image(foreign), lambda: talus.simulate(foreign, "x"),
+                 lambda: talus.simulate("x", foreign)):
+        raises(talus.ConfigError, "is no name in UTF-8", call)
+    raises(talus.ConfigError, "fresh: must be True or False", talus.simulate, "x", "y", "no")
     raises(talus.ConfigError, "no target", strategy.tell, {"a": .5}, 1.0, image=image)
     raises(talus.ConfigError, "values: must be a dictionary", strategy.tell, [.5], 1.0)
     raises(talus.ConfigError, "a: must be a number; it is a str", strategy.tell, {"a": "x"}, 1.0)
@@ -123,15 +122,39 @@ def check_ends():
 
 
 def check_threads():
-    """Others run while a heap is drawn: of 60 ms, none of which Python's own thread could have, some are theirs."""
+    """Others run while a heap is drawn or compared: of 60 ms, none of which Python's own thread could have, some are
+    theirs."""
     spheres = numpy.column_stack([numpy.zeros((40000, 2)), numpy.full((40000, 2), 1e-3)])
-    ticks = []
-    drawing = threading.Thread(target=lambda: talus.project(spheres, FRAME, 2000))
-    drawing.start()
-    while drawing.is_alive():
-        ticks.append(time.monotonic())
-        time.sleep(1e-3)
-    assert len(ticks) > 10, ticks
+    large = numpy.full((4000, 6000), 255, numpy.uint8)
+    large[2000:, 1000:5000] = 0
+    frame = {**FRAME, "width_px": 6000, "height_px": 4000, "center_x_px": 3000, "baseline_px": 3900, "pixel_size": 2e-6}
+    for work in (lambda: talus.project(spheres, FRAME, 2000), lambda: talus.compare(large, large, frame)):
+        ticks = []
+        working = threading.Thread(target=work)
+        working.start()
+        while working.is_alive():
+            ticks.append(time.monotonic())
+            time.sleep(1e-3)
+        assert len(ticks) > 10, ticks
+
+
+def check_forked_processes():
+    """A pool's process, forked after loops on several threads, draws and searches as its parent does."""
+    code = """
+import multiprocessing, numpy, talus
+spheres = numpy.column_stack([numpy.zeros((4000, 2)), numpy.full((4000, 2), 1e-3)])
+def drawn(_): return int(talus.project(spheres, %r).sum())
+def found(_):
+    strategy = talus.Strategy([{"name": "a", "min": 0, "max": 1}, {"name": "b", "min": 0, "max": 1}], {"kind": "gp"})
+    for _ in range(25):
+        for values in strategy.ask(): strategy.tell(values, (values["a"] - .3) ** 2 + values["b"])
+    return strategy.answer()["values"]
+expected = drawn(0), found(0)
+with multiprocessing.get_context("fork").Pool(1) as pool:
+    assert (pool.map_async(drawn, [0]).get(60)[0], pool.map_async(found, [0]).get(60)[0]) == expected
+""" % FRAME
+    told = os.environ | {"OMP_NUM_THREADS": "2", "PYTHONPATH": sys.argv[2]}
+    subprocess.run([sys.executable, "-c", code], env=told, check=True)
 
 
 def check_images_as_evaluations():
@@ -163,6 +186,31 @@ def check_simulation(root):
     metrics = talus.compare(profile, profile, FRAME)
     assert metrics["sad_mm2"] == 0 and metrics["iou"] == 1
     raises(talus.ConfigError, "case.json", talus.simulate, str(root / "absent/case.json"), str(root / "x"))
+    check_interrupts(root)
+
+
+def check_interrupts(root):
+    """Ctrl-C is Python's own again after simulations, of which the short one takes none from the long one."""
+    fine = {**CASE["powder"], "sizes": {"kind": "mono", "diameter": "0.3 mm"}}  # 10 s and more
+    (root / "long.json").write_text(json.dumps({**CASE, "powder": fine}))
+    ended = []
+
+    def simulate():
+        try:
+            talus.simulate(root / "long.json", root / "long")
+        except KeyboardInterrupt:
+            ended.append("interrupted")
+
+    simulating = threading.Thread(target=simulate)
+    simulating.start()
+    log = root / "long/log.txt"
+    while not (log.exists() and log.stat().st_size):  # it says so when its first steps are done
+        time.sleep(1e-2)
+    talus.simulate(root / "case.json", root / "short")
+    signal.raise_signal(signal.SIGINT)
+    simulating.join()
+    assert ended == ["interrupted"] and (root / "long/checkpoint.bin").exists(), ended
+    raises(KeyboardInterrupt, "", signal.raise_signal, signal.SIGINT)
 
 
 def check_projection():
@@ -176,6 +224,10 @@ def check_projection():
     raises(talus.ConfigError, "give metres", talus.project, numpy.array([[0, 0, 1, 2.]]), FRAME)
     for bad in (numpy.zeros((1, 4), complex), [["a"] * 4], None):
         raises(talus.ConfigError, "must be numbers", talus.project, bad, FRAME)
+    one_of_two = numpy.ma.masked_array([[0, 0, 1e-3, 2e-3]] * 2, mask=[[True] * 4, [False] * 4])
+    raises(talus.ConfigError, "spheres: is a masked array", talus.project, one_of_two, FRAME)
+    assert (talus.project(one_of_two[1:], FRAME) == image).all()  # nothing of it is masked
+    raises(talus.ConfigError, "heap: is a masked array", talus.compare, numpy.ma.masked_equal(image, 0), image, FRAME)
     assert (talus.project(numpy.array([[1e300, 0, -1e300, 1e-3]]), FRAME) == 255).all()  # far away
     raises(talus.ConfigError, "num_views", talus.project, numpy.zeros((0, 4)),
            {**FRAME, "width_px": 65500, "height_px": 3000}, 3600)
@@ -218,116 +270,14 @@ def check_chance_buffers():
     assert taken > 5, taken
 
 
-def check_campaign(program, root):
-    heap = talus.read_image(root / "heap/profile.png")
-    assert heap.shape == (80, 120)
-    spec = {"experiment": {"map": str(root / "heap/profile.png"), "plate_diameter": "10 mm", "frame": FRAME},
-            "powder": CASE["powder"], "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
-            "strategy": {"kind": "sobol", "num_points": 4}, "budget": {"simulations": 4},
-            "noise": {"replicates": 0}, "confirm": {"candidates": 0}}
-    os.environ["TALUS_PROGRAM"] = program
-    events = []
-    spec["name"] = "a <drawn> heap"
-    campaign = talus.calibrate(spec, out=root / "run", progress=events.append)
-    assert {event["event"] for event in events} >= {"trial", "progress", "result"}, events
-    trial = next(event for event in events if event["event"] == "trial")
-    assert trial["parameters"] == ["sliding_friction"] and len(trial["values"]) == 1
-    assert campaign.parameters == ["sliding_friction"] and campaign.ranges == {"sliding_friction": (0.1, 0.9)}
-    trials = campaign.trials()
-    assert len(trials) == 4 and (trials.status == "ok").all()
-    assert trials.sliding_friction.between(0.1, 0.9).all() and (trials.sad_mm2 >= 0).all()
-    assert trials.attrs["units"]["sad_mm2"] == "mm2" and trials.attrs["ranges"]["sliding_friction"] == (0.1, 0.9)
-    assert campaign.result["parameters"][0]["name"] == "sliding_friction"
-    assert campaign.spec["budget"]["simulations"] == 4
-    check_profiles(campaign)
-    raises(FileNotFoundError, "posterior", campaign.posterior)
-    raises(FileNotFoundError, "holds no campaign", talus.Campaign, root)
-    raises(talus.ConfigError, "out: is needed", talus.calibrate, spec)
-    (root / "bad.json").write_text("{}")
-    raises(talus.ConfigError, "powder", talus.calibrate, root / "bad.json", out=root / "bad", progress=False)
-    raises(talus.ConfigError, "budget: is for simulate", campaign.next, budget=3)
-    raises(talus.ConfigError, "sliding_friction", campaign.consider, sliding_friction=3.0)
-    for bad, words in ((numpy.nan, "sliding_friction"), ("wide", "does not start with a number"), (None, "NoneType"),
-                       ([.5], "it is a list")):
-        raises(talus.ConfigError, words, campaign.consider, sliding_friction=bad)
-    raises(talus.ConfigError, "cannot be read", campaign.next, "--help")
-    raises(talus.ConfigError, "cannot be read", talus.calibrate, "--help", out=root / "help", progress=False)
-    raises(talus.ConfigError, "add-simulations", campaign.resume, add_simulations="many", progress=False)
-    raises(FileNotFoundError, "holds no campaign", talus.Campaign, "--help")
-    assert campaign.consider(sliding_friction=0.5)["values"] == {"sliding_friction": 0.5}
-    assert repr(campaign).startswith('<talus.Campaign "a <drawn> heap", finished, 4 trials')
-    shown = campaign._repr_html_()
-    assert "a &lt;drawn&gt; heap" in shown and "<td>sliding_friction</td>" in shown, shown
-    assert campaign.resume(add_simulations=1, progress=False).trials().shape[0] >= 4
-    assert campaign.report().stat().st_size > 1e5
-    check_inference_data(campaign)
-    check_calibrate_arguments(root, spec)
-
-
-def check_calibrate_arguments(root, spec):
-    """A dictionary's numbers may be numpy's; its file, beside the campaign, takes no other's place."""
-    folder = root / "a#1 %41? powder 1.5"
-    quick = {**spec, "budget": {"simulations": numpy.int64(2)}, "strategy": {"kind": "sobol", "num_points": 2}}
-    assert len(talus.calibrate(quick, out=folder, progress=False).trials()) == 2
-    assert json.loads((root / "a#1 %41? powder 1.5.json").read_text())["budget"] == {"simulations": 2}
-    (root / "mine.json").write_text("{} // mine")
-    raises(talus.ConfigError, "is there already", talus.calibrate, quick, out=root / "mine", progress=False)
-    assert (root / "mine.json").read_text() == "{} // mine"
-    raises(talus.ConfigError, "which JSON has not", talus.calibrate, {**spec, "seed": {1}}, out=root / "set")
-    raises(talus.ConfigError, "typo", talus.calibrate, {**quick, "typo": 1}, out=root / "new/one/", progress=False)
-    again = talus.calibrate(quick, out=root / "new/one/", progress=False)  # the typo's file does not stand in the way
-    with sqlite3.connect(again.folder / "journal.sqlite") as journal:  # as kill -9 leaves it
-        journal.execute("update campaign set state = 'running'")
-    assert again.state == "interrupted"
-
-    def fails(event):
-        raise RuntimeError("mine")
-
-    raises(RuntimeError, "mine", talus.calibrate, {**spec, "name": "again"}, out=root / "again", progress=fails)
-
-
-def check_profiles(campaign):
-    """The sphere heaps stand on the plate, z = 0, round its centre, x = 0."""
-    profiles = campaign.profiles()
-    assert profiles.dims == ("trial", "z", "x") and len(profiles) == 4
-    assert profiles.x.attrs["units"] == profiles.z.attrs["units"] == "m"
-    assert abs(float(profiles.x[0]) + 59.5e-4) < 1e-9 and abs(float(profiles.z[0]) - 69.5e-4) < 1e-9
-    powder = profiles.sel(trial=1) < 128
-    assert bool(powder.any()) and not bool(powder.where(profiles.z < -1e-4, False).any())
-    assert campaign.aehp().shape == campaign.profile(1).shape == (80, 120)
-    best = campaign.profile(campaign.trials().sad_mm2.idxmin())
-    assert talus.compare(best, campaign.aehp(), campaign.aehp().attrs)["sad_mm2"] >= 0
-    frame = json.loads((campaign.folder / "trials/0001/result.json").read_text())["profile"]
-    assert talus.project(numpy.array([[0, 0, 1e-3, 2e-3]]), frame).shape == best.shape
-    raises(talus.ConfigError, "is no experiment", campaign.profiles, "drum")
-    raises(FileNotFoundError, "has no profile", campaign.profile, 99)
-
-
-def check_inference_data(campaign):
-    """What ArviZ is given, by a stand-in that keeps it: the dependency is not a hard one."""
-    (campaign.folder / "posterior.csv").write_text("sliding_friction\n0.5\n0.6\n")
-    draws = campaign.posterior()
-    assert draws.sliding_friction.tolist() == [0.5, 0.6] and draws.attrs["units"] == {"sliding_friction": ""}
-    sys.modules["arviz"] = None
-    raises(ImportError, "needs ArviZ", campaign.to_inference_data)
-    stand_in = types.ModuleType("arviz")
-    stand_in.InferenceData = lambda **groups: groups
-    sys.modules["arviz"] = stand_in
-    posterior = campaign.to_inference_data()["posterior"]
-    del sys.modules["arviz"]
-    assert posterior.sliding_friction.dims == ("chain", "draw")
-    assert posterior.sliding_friction.values.tolist() == [[0.5, 0.6]]
-    assert posterior.sliding_friction.attrs == {"units": "", "searched_min": 0.1, "searched_max": 0.9}
-
-
 check_ask_tell()
 check_ends()
 check_threads()
+check_forked_processes()
 check_images_as_evaluations()
 check_projection()
 check_module()
 check_chance_buffers()
 with tempfile.TemporaryDirectory() as scratch:
     check_simulation(pathlib.Path(scratch))
-    check_campaign(sys.argv[1], pathlib.Path(scratch))
 print("the module does what it says")
