@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import warnings
 
 from ._core import ConfigError, Error
@@ -108,8 +109,10 @@ class Progress:
 def run(arguments, progress):
     """Runs a verb that works on a campaign; `progress` is called with each event, True: Progress()."""
     tell = Progress() if progress is True else progress or (lambda event: None)
-    with subprocess.Popen([program(), *map(str, arguments), "--json"], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True) as process:
+    # A file holds what it says, however much: nobody reads a second pipe meanwhile.
+    with tempfile.TemporaryFile("w+") as said, \
+            subprocess.Popen([program(), *map(str, arguments), "--json"], stdout=subprocess.PIPE,
+                             stderr=said, text=True) as process:
         try:
             for line in process.stdout:
                 tell(json.loads(line))
@@ -117,6 +120,8 @@ def run(arguments, progress):
             process.send_signal(signal.SIGTERM)
             process.communicate()  # so that it need not wait for us to read
             raise
-        words = _without_warnings(process.stderr.read())
+        process.wait()
+        said.seek(0)
+        words = _without_warnings(said.read())
     if process.returncode:
         _raise(process.returncode, words)
