@@ -44,11 +44,12 @@ std::vector<std::pair<std::string, std::string>> ReadMoves(const std::vector<std
 
 void Sensitivity(const SensitivityArguments& arguments) {
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
+  auto moves = ReadMoves(arguments.moves);
   const std::filesystem::path folder = analysis::SensitivityFolder(view.folder.root);
   std::filesystem::create_directories(folder);
   const campaign::CampaignLock lock(folder);  // its simulations are one process's at a time
   analysis::SensitivityOptions options{
-      .moves = ReadMoves(arguments.moves),
+      .moves = std::move(moves),
       .scale_factor = arguments.scale_factor,
       .most_replicates = arguments.most_replicates,
       .parts = campaign::MakeParts(view.spec, folder),

@@ -215,10 +215,10 @@ def good_folder(folder):
 
 def state(folder):
     """Everything in it, by name and content, but what tells processes of each other."""
-    return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
+    return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest() if p.is_file() else "no file"
             for p in folder.rglob("*")
-            if p.is_file() and p.name not in ("campaign.lock", "journal.sqlite-shm")
-            and (p.stat().st_size > 0 or p.name != "journal.sqlite-wal")}
+            if not p.is_file() or (p.name not in ("campaign.lock", "journal.sqlite-shm")
+                                   and (p.stat().st_size > 0 or p.name != "journal.sqlite-wal"))}
 
 
 def run(arguments, folder):

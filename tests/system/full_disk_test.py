@@ -18,7 +18,7 @@ import tempfile
 
 TALUS, FULL_DISK, SOURCE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 # Of a verb: every write if it has no more, else as many spread over all.
-MOST_MOMENTS = int(os.environ.get("TALUS_FULL_DISK_MOMENTS", 16))
+MOST_MOMENTS = int(os.environ.get("TALUS_FULL_DISK_MOMENTS", 10))
 
 DECK = """awk 'BEGIN {
   print "x_m,y_m,z_m,diameter_m"

@@ -140,7 +140,7 @@ def killed_campaign(talus, source, most_kills, dice, two):
 
 
 def main():
-    arguments = chance_arguments("kills", 20, "--two")
+    arguments = chance_arguments("kills", 12, "--two")
     dice = random.Random(arguments.seed)
     kills, trials = 0, 0
     while kills < arguments.kills:  # a fast machine ends a campaign after few kills

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
@@ -30,6 +31,8 @@ int SimulateFirst(const std::filesystem::path& campaign) {
 NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
   const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
+  std::vector<TestCandidate> tests =
+      request.candidates.empty() ? UsualTests(view) : LoadTests(request.candidates);
   std::optional<campaign::CampaignLock> lock;  // its simulations are one process's at a time
   if (request.simulate) {
     std::filesystem::create_directories(folder);
@@ -42,7 +45,7 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
   }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
   NextTable table = RankNext(
-      view, {.tests = request.candidates.empty() ? UsualTests(view) : LoadTests(request.candidates),
+      view, {.tests = std::move(tests),
              .simulate = request.simulate,
              .core_time = request.core_time.value_or(campaign::CoreTime(view.spec).Of(view.trials)),
              .say = request.say,
