@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 using base::Outlives;
 
 constexpr const char* kKind = "command";
+constexpr const char* kCaseFile = "case.json";
 // Left by the shell that runs the command, when it has ended well.
 constexpr const char* kDone = ".command_done";
 constexpr const char* kMpiLauncher = "mpirun";
@@ -243,7 +244,14 @@ CommandEngine::CommandEngine(const CommandOptions& options, FormerFiles former)
 }
 
 void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
-  PrepareFolder(folder, "case.json", CaseText({.heap = rig_case, .engine = options_}));
+  const std::string key = CaseText({.heap = rig_case, .engine = options_});
+  if (former_ == FormerFiles::kRemove) {
+    PrepareFolder(folder, kCaseFile, key);
+  } else if (!HoldsKey(folder, kCaseFile, key)) {
+    Forget(folder);
+    for (const char* own : {"heap.vtp", "profile.png"}) fs::remove(folder / own);
+    base::WriteFileAtomically(folder / kCaseFile, key, Outlives::kProgram);
+  }
   if (IsComplete(folder)) return;
   for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
@@ -261,7 +269,7 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
 }
 
 bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
-  return HoldsKey(folder, "case.json", CaseText({.heap = rig_case, .engine = options_})) &&
+  return HoldsKey(folder, kCaseFile, CaseText({.heap = rig_case, .engine = options_})) &&
          HasPrepared(folder);
 }
 
@@ -308,7 +316,7 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
 std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case,
                                                       const fs::path& from) {
-  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
+  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / kCaseFile));
   if (auto difference = rigs::RunDifference(made.heap, rig_case)) return difference;
   const auto engines = base::JsonChanges(EngineJson(made.engine), EngineJson(options_));
   if (!engines.empty() && engines.front().path == "templates_hash") {
@@ -328,7 +336,7 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
 bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
   if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
-  base::WriteFileAtomically(to / "case.json", CaseText({.heap = rig_case, .engine = options_}));
+  base::WriteFileAtomically(to / kCaseFile, CaseText({.heap = rig_case, .engine = options_}));
   return true;
 }
 

@@ -13,8 +13,8 @@
 
 namespace talus::trials {
 
-// What Prepare makes of files that an attempt without an end has left: in a folder of the user's
-// some may be the user's own.
+// What Prepare makes of files that an attempt without an end, or another case, has left: in a
+// folder of the user's some may be the user's own. To keep them it needs a folder that is there.
 enum class FormerFiles { kRemove, kKeep };
 
 class CommandEngine : public TrialEngine {

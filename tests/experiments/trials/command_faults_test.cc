@@ -1,6 +1,8 @@
 // What another engine's command leaves and ought not to, and a trial that is run somewhere else.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include <fstream>
 
@@ -9,6 +11,7 @@
 #include "base/text/number_text.h"
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/command_scalars.h"
+#include "experiments/trials/simulate/run_lock.h"
 #include "tests/experiments/command_fixture.h"
 
 namespace talus::trials {
@@ -49,6 +52,67 @@ TEST_F(CommandFaultsTest, WhatAnInterruptedAttemptHasLeftIsGoneAtTheNext) {
     EXPECT_TRUE(fs::exists(folder / name)) << name;
   }
   for (const char* name : {"post", "log.lammps"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+}
+
+// All of the folder went, the user's input among it.
+TEST_F(CommandFaultsTest, AnotherCaseInTheFolderReplacesWhatTalusHasWrittenAlone) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  Run();
+  std::ofstream(root_ / "trial/notes.txt") << "mine";
+  fs::create_directories(root_ / "trial/photos");
+  rigs::Case other = SmallCase();
+  other.seed = 7;
+  const auto simulate = [&](const fs::path& source) {
+    SimulateCommandCase(
+        {.heap = other, .engine = options_},
+        {.folder = root_ / "trial", .fresh = true, .quiet = true, .source = source});
+  };
+  const std::string before = Text("trial/case.json");
+  EXPECT_THAT(FailureOf([&] { simulate(root_ / "trial/case.json"); }),
+              HasSubstr("lies in the folder of the run"));
+  EXPECT_EQ(Text("trial/case.json"), before);
+  options_.result = "heap.csv";  // so that heap.vtp is not a former result by its name
+  const auto spheres = fs::last_write_time(root_ / "trial/heap.vtp");
+  simulate(root_ / "new.json");
+  EXPECT_NE(Text("trial/case.json"), before);
+  EXPECT_NE(fs::last_write_time(root_ / "trial/heap.vtp"), spheres);
+  EXPECT_EQ(Text("trial/notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(root_ / "trial/photos"));
+}
+
+TEST_F(CommandFaultsTest, AFileIsNotReplacedByTheFolderOfARun) {
+  Deck("run.sh", "true\n");
+  std::ofstream(root_ / "trial") << "";
+  EXPECT_THAT(FailureOf(), HasSubstr("is a file; name a folder with --out"));
+  fs::remove(root_ / "trial");
+  fs::create_symlink(root_ / "absent", root_ / "trial");
+  EXPECT_THAT(FailureOf(), HasSubstr("is a link that leads nowhere"));
+  EXPECT_TRUE(fs::is_symlink(root_ / "trial"));
+}
+
+// The second killed the first's command, and a campaign's too.
+TEST_F(CommandFaultsTest, AFolderInWhichAnotherProcessSimulatesIsLeftToIt) {
+  Deck("run.sh", "touch ../../begun; printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  const fs::path folder = root_ / "trials/0001";
+  const auto simulate = [&] {
+    SimulateCommandCase({.heap = SmallCase(), .engine = options_},
+                        {.folder = folder, .quiet = true});
+  };
+  fs::create_directories(folder);
+  {
+    const RunLock lock(folder);
+    EXPECT_THAT(FailureOf(simulate), HasSubstr("another process simulates there"));
+  }
+  std::ofstream(root_ / kCampaignLock) << "";
+  {
+    const int file = ::open((root_ / kCampaignLock).c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(::flock(file, LOCK_EX | LOCK_NB), 0);
+    EXPECT_THAT(FailureOf(simulate), HasSubstr("another process works on the campaign"));
+    ::close(file);
+  }
+  EXPECT_FALSE(fs::exists(root_ / "begun"));
+  simulate();
+  EXPECT_TRUE(fs::exists(root_ / "begun"));
 }
 
 // Such a trial succeeded, and its parameters were taken for those of the spec's powder.
