@@ -127,6 +127,8 @@ fs::path ScalarFile(const fs::path& folder) {
   return {};
 }
 
+bool IsScalarName(const fs::path& name) { return name == kJson || name == kCsv; }
+
 std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
   const fs::path file = ScalarFile(folder);
   if (file.empty()) return {};

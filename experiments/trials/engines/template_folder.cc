@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/trials/engines/command_result.h"
+#include "experiments/trials/engines/command_scalars.h"
 
 namespace talus::trials {
 namespace {
@@ -76,6 +77,9 @@ void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& k
     problems.Require(!IsResultName(engine, file.path), "templates",
                      (folder_ / file.path).string() + ": fits \"" + engine.result +
                          "\", so that it would be taken for every trial's result; take it out");
+    problems.Require(
+        !IsScalarName(file.path), "templates",
+        (folder_ / file.path).string() + ": would be taken for every trial's numbers; take it out");
   }
   problems.Within("command", [&] {
     for (const TextTemplate& part : CommandParts(engine)) part.Check(known, problems);

@@ -222,6 +222,11 @@ TEST_F(CommandEngineTest, OldResultsAreNoResults) {
   Deck("heap.csv", "x,y,z,r\n0,0,1e-3,1e-3\n");
   EXPECT_THAT(CheckErrors(), HasSubstr("heap.csv: fits \"heap.*\", so that it would be taken"));
   fs::rename(root_ / "deck/heap.csv", root_ / "deck/old.csv");
+  for (const char* name : {"scalars.csv", "scalars.json"}) {
+    Deck(name, "");
+    EXPECT_THAT(CheckErrors(), HasSubstr("would be taken for every trial's numbers")) << name;
+    fs::remove(root_ / "deck" / name);
+  }
   Deck("run.sh", "cp -p old.csv heap.csv; touch -d 2001-01-01 heap.csv\n");
   EXPECT_EQ(CheckErrors(), "");
   EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\" that is not older than the trial"));
