@@ -136,6 +136,20 @@ TEST_F(CommandFaultsTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
               HasSubstr("1/10 of that; is engine.length_unit right"));
 }
 
+// A code's own "no value" was taken for one.
+TEST_F(CommandFaultsTest, ANumberThatCannotBeFailsTheTrial) {
+  const auto fault_of = [&](const std::string& number) {
+    std::ofstream(root_ / "scalars.json") << "{" << number << "}";
+    return FailureOf([&] { ReadScalars(root_); });
+  };
+  EXPECT_THAT(fault_of(R"("angle_deg": -999)"),
+              HasSubstr("\"angle_deg\" -999, which cannot be below -90; write null for no value"));
+  EXPECT_THAT(fault_of(R"("angle_deg": 1e300)"), HasSubstr("which cannot be above 90"));
+  EXPECT_THAT(fault_of(R"("packing_fraction": 1.01)"), HasSubstr("which cannot be above 1"));
+  EXPECT_EQ(fault_of(R"("packing_fraction": 1, "angle_deg": 90)"), "");
+  EXPECT_EQ(fault_of(R"("cohesion_pa": -1e9, "their own": 1e300)"), "");
+}
+
 // The first won, whatever the second said.
 TEST_F(CommandFaultsTest, NumbersInTwoFilesAreRefused) {
   std::ofstream(root_ / "scalars.json") << R"({"runout_m": 0.25})";
