@@ -22,6 +22,8 @@
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/plausible.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/trials/engines/template_folder.h"
+#include "experiments/trials/engines/trial_engine.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
@@ -222,6 +224,7 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
   const CampaignFolder folder{fs::absolute(root)};
   RequireOthers(options.reuse, folder);
   RequireNewFolder(folder, root);
+  if (spec.engine.kind == EngineKind::kCommand) trials::RequireOutside(spec.engine.command, root);
   options.check(spec);
   const journal::CampaignRecord record = MakeRecord(spec, file);
   const std::vector<Reference> references = ReferencesOf(record, spec);

@@ -118,6 +118,18 @@ void TemplateFolder::Fill(const TemplateValues& values, const fs::path& target) 
   }
 }
 
+void RequireOutside(const CommandOptions& engine, const fs::path& folder) {
+  if (!engine.templates) return;
+  std::error_code unreachable;  // which reading and writing say
+  const fs::path templates = fs::canonical(*engine.templates, unreachable);
+  if (templates.empty()) return;
+  const fs::path place = fs::weakly_canonical(fs::absolute(folder), unreachable);
+  if (std::ranges::mismatch(templates, place).in1 != templates.end()) return;
+  throw base::ConfigError(folder.string() +
+                          ": lies among the templates (engine.templates), which it would change; "
+                          "name a folder outside with --out");
+}
+
 std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values) {
   std::vector<std::string> command;
   for (const TextTemplate& part : CommandParts(engine)) command.push_back(part.Fill(values));

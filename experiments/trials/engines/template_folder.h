@@ -42,6 +42,9 @@ class TemplateFolder {
   std::vector<File> files_;  // by name
 };
 
+// Throws ConfigError where a run's folder would lie among the templates, which it would change.
+void RequireOutside(const CommandOptions& engine, const std::filesystem::path& folder);
+
 // The command with its placeholders filled.
 std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values);
 

@@ -14,6 +14,7 @@
 #include "base/version.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/engines/template_folder.h"
 #include "experiments/trials/simulate/run_lock.h"
 
 namespace talus::trials {
@@ -88,6 +89,7 @@ void WriteFailure(const fs::path& folder, const std::string& reason) {
 void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOptions& options) {
   const fs::path& folder = options.folder;
   RequireOwnFolder(command_case, options);
+  RequireOutside(command_case.engine, folder);
   RequireNoLiveCampaign(folder);
   CommandEngine engine(command_case.engine, FormerFiles::kKeep);
   base::MakeOutputFolder(folder);
