@@ -12,6 +12,7 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/joined.h"
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
@@ -220,6 +221,20 @@ bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templat
   return options.ranks.value_or(1) > 1 && !templates.Uses(options, "ranks");
 }
 
+void RequireTaken(const CommandOptions& options, const TemplateFolder& templates,
+                  const SearchedParameter& searched, base::Problems& problems) {
+  const std::vector<std::string> names = PlaceholdersOf(searched.name, searched.low, searched.high);
+  const auto is_used = [&](const std::string& name) { return templates.Uses(options, name); };
+  const std::vector<std::string> others(names.begin() + 1, names.end());
+  problems.Require(
+      std::ranges::any_of(names, is_used), "templates",
+      options.templates->string() + ": no file has the placeholder {{ " + names.front() + " }}" +
+          (others.empty()
+               ? ""
+               : ", nor another that follows from it (" + base::Joined(others, ", ") + ")") +
+          ", so that searching " + searched.name + " would change nothing");
+}
+
 // Processor time of all that the command's shell has waited for, by the second line of `times`,
 // "0m6.90s 0m0.10s"; 0 where it is not known [s].
 double CpuTimeOf(const fs::path& mark) {
@@ -342,12 +357,17 @@ bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, c
 
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
-  const TemplateFolder templates(options.templates.value());
-  std::vector<std::string> needed = check.calibrated;
-  for (std::string& name : StatedPlaceholders(check.rig_case)) {
-    if (std::ranges::find(needed, name) == needed.end()) needed.push_back(std::move(name));
+  if (!fs::is_directory(options.templates.value())) {
+    return problems.Add("templates", options.templates->string() +
+                                         ": is no folder; name that of the engine's input files");
   }
-  templates.Check(options, ValuesOf(options, check.rig_case), needed, problems);
+  const TemplateFolder templates(*options.templates);
+  const std::vector<std::string> stated = StatedPlaceholders(check.rig_case);
+  templates.Check(options, ValuesOf(options, check.rig_case), stated, problems);
+  for (const SearchedParameter& searched : check.searched) {
+    if (std::ranges::find(stated, searched.name) != stated.end()) continue;
+    RequireTaken(options, templates, searched, problems);
+  }
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

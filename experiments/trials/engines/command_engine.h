@@ -42,11 +42,18 @@ class CommandEngine : public TrialEngine {
   FormerFiles former_;
 };
 
-// What can be known to be wrong before anything runs: unknown placeholders, ones of `calibrated`
+// A parameter, and the cases at either end of its range.
+struct SearchedParameter {
+  std::string name;
+  rigs::Case low;
+  rigs::Case high;
+};
+
+// What can be known to be wrong before anything runs: unknown placeholders, a searched parameter
 // that nothing uses, and, unless `elsewhere` (a cluster's nodes), a program that is not there.
 struct CommandCheck {
   const rigs::Case& rig_case;  // any of the campaign
-  std::vector<std::string> calibrated;
+  std::vector<SearchedParameter> searched;
   bool elsewhere = false;
 };
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,

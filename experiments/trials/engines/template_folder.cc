@@ -87,7 +87,7 @@ void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& k
   for (const std::string& name : needed) {
     problems.Require(Uses(engine, name), "templates",
                      folder_.string() + ": no file has the placeholder {{ " + name +
-                         " }}, so that giving or searching " + name + " would change nothing");
+                         " }}, so that giving " + name + " would change nothing");
   }
 }
 

@@ -199,7 +199,8 @@ TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
   Deck("run.sh", "{{ sliding_friction }} {{ sliding_frction }}\n");
   Deck("other", "\n{{# grain }}{{/ grain }}\n");
   options_.command = {"talus-no-such-program", "{{ sed }}"};
-  const std::string errors = CheckErrors({"sliding_friction", "rolling_friction"});
+  const std::string errors =
+      CheckErrors({Searched("sliding_friction"), Searched("rolling_friction")});
   EXPECT_THAT(errors, HasSubstr("run.sh:1: the placeholder \"sliding_frction\" is not known; did "
                                 "you mean \"sliding_friction\"?"));
   EXPECT_THAT(errors, HasSubstr("other:2: the placeholder \"grain\" is not known; did you mean "
@@ -210,7 +211,7 @@ TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
   EXPECT_THAT(errors, HasSubstr("\"talus-no-such-program\" is not found"));
   EXPECT_FALSE(fs::exists(root_ / "trial"));
   options_.templates = root_ / "absent";
-  EXPECT_THAT(CheckErrors(), HasSubstr("absent: cannot be read"));
+  EXPECT_THAT(CheckErrors(), HasSubstr("absent: is no folder; name that of"));
   options_.templates = root_ / "deck";
   Deck("case.json", "{}");
   EXPECT_THAT(CheckErrors(), HasSubstr("may not have the name of a trial's own file"));
@@ -343,7 +344,7 @@ TEST_F(CommandEngineTest, StatedPairWithoutItsPlaceholderIsRefused) {
   rigs::Case rig_case = SmallCase();
   rigs::PairWith(rig_case.pairs, rigs::kFloor).sliding_friction = 0.25;
   base::Problems problems;
-  CheckCommand(options_, {.rig_case = rig_case, .calibrated = {}, .elsewhere = true}, problems);
+  CheckCommand(options_, {.rig_case = rig_case, .searched = {}, .elsewhere = true}, problems);
   EXPECT_THAT(problems.Text(), HasSubstr("{{ plate_pair_sliding_friction }}"));
 }
 

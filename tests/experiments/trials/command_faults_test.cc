@@ -150,6 +150,25 @@ TEST_F(CommandFaultsTest, ANumberThatCannotBeFailsTheTrial) {
   EXPECT_EQ(fault_of(R"("cohesion_pa": -1e9, "their own": 1e300)"), "");
 }
 
+// What follows from a parameter is as good as itself; nothing was asked of a powder's bulk.
+TEST_F(CommandFaultsTest, ASearchedParameterReachesTheDeckByWhateverFollowsFromIt) {
+  Deck("run.sh",
+       "echo {{ powder_pair_sliding_friction }} {{ time_step }} {{ plate_restitution }}\n");
+  EXPECT_EQ(CheckErrors({Searched("sliding_friction")}), "");
+  EXPECT_THAT(CheckErrors({Searched("youngs_modulus")}), HasSubstr("{{ youngs_modulus }}"));
+  EXPECT_THAT(CheckErrors({Searched("restitution")}), HasSubstr("{{ restitution }}, nor another"));
+  SearchedParameter mass{.name = "mass", .low = SmallCase(), .high = SmallCase()};
+  mass.high.powder.mass *= 2;
+  SearchedParameter size{.name = "particle_size", .low = SmallCase(), .high = SmallCase()};
+  size.high.powder.sizes.diameter *= 2;
+  EXPECT_THAT(CheckErrors({mass}), HasSubstr("so that searching mass would change nothing"));
+  EXPECT_THAT(CheckErrors({size}), HasSubstr("so that searching particle_size would change"));
+  Deck("run.sh", "echo {{ num_grains }}\n");
+  EXPECT_EQ(CheckErrors({mass, size}), "");
+  Deck("run.sh", "{{# grains }}{{ x }}{{/ grains }}\n");
+  EXPECT_EQ(CheckErrors({mass, size}), "");
+}
+
 // The first won, whatever the second said.
 TEST_F(CommandFaultsTest, NumbersInTwoFilesAreRefused) {
   std::ofstream(root_ / "scalars.json") << R"({"runout_m": 0.25})";
