@@ -37,7 +37,10 @@ TemplateFolder::TemplateFolder(const fs::path& folder) : folder_(folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
     const fs::path path = entry.path().lexically_relative(folder);
     std::error_code dangling;
-    if (entry.is_directory(dangling) && !entry.is_symlink()) continue;
+    if (entry.is_directory(dangling) && !entry.is_symlink()) {
+      folders_.push_back(path);
+      continue;
+    }
     if (!entry.is_regular_file(dangling)) {
       throw base::ConfigError(entry.path().string() +
                               ": is a pipe, a device, or a link to a folder or to nothing; a "
@@ -108,9 +111,9 @@ std::string TemplateFolder::Hash() const {
 }
 
 void TemplateFolder::Fill(const TemplateValues& values, const fs::path& target) const {
+  for (const fs::path& folder : folders_) fs::create_directories(target / folder);
   for (const File& file : files_) {
     const fs::path path = target / file.path;
-    fs::create_directories(path.parent_path());
     // Made again from the template after a power cut, so there is no need to wait for the disk.
     base::WriteFileAtomically(path, file.text ? file.text->Fill(values) : file.bytes,
                               base::Outlives::kProgram);

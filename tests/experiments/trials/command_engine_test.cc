@@ -312,6 +312,14 @@ TEST_F(CommandEngineTest, LastResultInNaturalOrderCounts) {
   EXPECT_TRUE(NaturalLess("heap", "heap1"));
 }
 
+// LIGGGHTS makes no folder for its dumps, and fails.
+TEST_F(CommandEngineTest, EmptyFoldersOfTheTemplatesAreCopied) {
+  fs::create_directories(root_ / "deck/post/restart");
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >post/restart/heap.csv\n");
+  options_.result = "post/restart/heap.csv";
+  Run();
+}
+
 TEST_F(CommandEngineTest, ResultIsTurnedAndMovedOntoThePlate) {
   options_.up = UpAxis::kY;
   options_.plate_center = {1, 2, 3};
