@@ -160,7 +160,7 @@ TEST_F(CommandFaultsTest, ASearchedParameterReachesTheDeckByWhateverFollowsFromI
   SearchedParameter mass{.name = "mass", .low = SmallCase(), .high = SmallCase()};
   mass.high.powder.mass *= 2;
   SearchedParameter size{.name = "particle_size", .low = SmallCase(), .high = SmallCase()};
-  size.high.powder.sizes.diameter *= 2;
+  size.high.powder.sizes.diameter = 2 * *size.low.powder.sizes.diameter;
   EXPECT_THAT(CheckErrors({mass}), HasSubstr("so that searching mass would change nothing"));
   EXPECT_THAT(CheckErrors({size}), HasSubstr("so that searching particle_size would change"));
   Deck("run.sh", "echo {{ num_grains }}\n");
