@@ -1,6 +1,6 @@
 #include "experiments/trials/simulate/simulate_command.h"
 
-#include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -106,8 +106,8 @@ void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOpt
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is
   }
   if (options.quiet) return;
-  if (!output.doubt.empty()) std::fprintf(stderr, "warning: %s\n", output.doubt.c_str());
-  std::printf("%s: is done%s\n", folder.string().c_str(), was_complete ? " already" : "");
+  if (!output.doubt.empty()) std::cerr << "warning: " << output.doubt << '\n';
+  std::cout << folder.string() << ": is done" << (was_complete ? " already" : "") << std::endl;
 }
 
 }  // namespace talus::trials
