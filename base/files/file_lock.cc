@@ -1,6 +1,8 @@
 #include "base/files/file_lock.h"
 
+#include <fcntl.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <thread>
@@ -15,6 +17,14 @@ LockEnd LockWithin(int descriptor, std::chrono::milliseconds patience,
     std::this_thread::sleep_for(pause);
   }
   return LockEnd::kHeld;
+}
+
+bool IsLocked(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  ::close(file);
+  return !free;
 }
 
 }  // namespace talus::base

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 
 namespace talus::base {
 
@@ -19,5 +20,8 @@ inline constexpr const char* kNoLocks =
 // for `patience`, again after each `pause`.
 LockEnd LockWithin(int descriptor, std::chrono::milliseconds patience,
                    std::chrono::milliseconds pause);
+
+// Whether some process holds the lock of this file or folder now.
+bool IsLocked(const std::filesystem::path& path);
 
 }  // namespace talus::base

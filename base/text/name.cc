@@ -1,10 +1,23 @@
 #include "base/text/name.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cstdint>
 
 #include "base/text/printable.h"
 
 namespace talus::base {
+namespace {
+
+// Or a digit; beyond ASCII whatever is no blank, no general punctuation, and obeyed by no terminal.
+bool IsLetter(const Character& character) {
+  if (character.length == 0 || character.is_control) return false;
+  const std::uint32_t code = character.code;
+  if (code < 0x80) return std::isalnum(static_cast<int>(code)) != 0;
+  return code > 0xa0 && !(code >= 0x2000 && code < 0x2070) && code != 0x3000;
+}
+
+}  // namespace
 
 void RequireName(Problems& problems, std::string_view path, std::string_view name) {
   constexpr std::size_t kLongest = 100;
@@ -33,12 +46,15 @@ std::string OneLine(std::string_view text) {
 
 std::string FileWord(std::string_view name) {
   std::string word;
-  for (const char c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      word += c;
+  while (!name.empty()) {
+    const Character character = FirstCharacter(name);
+    const std::size_t length = std::max<std::size_t>(character.length, 1);
+    if (IsLetter(character)) {
+      word += name.substr(0, length);
     } else if (!word.empty() && word.back() != '-') {
       word += '-';
     }
+    name.remove_prefix(length);
   }
   return word.empty() ? "test" : word;
 }

@@ -16,7 +16,8 @@ void RequireName(Problems& problems, std::string_view path, std::string_view nam
 // A text from outside, such as a file's name, in one line: control characters become spaces.
 std::string OneLine(std::string_view text);
 
-// A name as the stem of a file's: letters and digits, with a dash for whatever else stands between.
+// A name as the stem of a file's: letters of any script and digits, with a dash for whatever else
+// stands between.
 std::string FileWord(std::string_view name);
 
 }  // namespace talus::base

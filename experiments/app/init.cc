@@ -11,6 +11,7 @@
 #include "base/json/json_file.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
+#include "base/text/printable.h"
 #include "base/text/shell_text.h"
 #include "experiments/app/bench_questions.h"
 #include "experiments/app/commands.h"
@@ -32,6 +33,10 @@ struct InitArguments {
 // Names in the spec are as seen from the spec's own folder.
 std::filesystem::path SeenFrom(const std::filesystem::path& spec,
                                const std::filesystem::path& photo) {
+  if (!base::IsUtf8(photo.string())) {
+    throw base::ConfigError(photo.string() +
+                            ": its name is not UTF-8, as the text of a spec must be; rename it");
+  }
   const auto folder = std::filesystem::absolute(spec).parent_path();
   return std::filesystem::absolute(photo).lexically_normal().lexically_proximate(
       folder.lexically_normal());
@@ -162,6 +167,11 @@ void Init(InitArguments& arguments) {
   if (std::filesystem::exists(arguments.out)) {
     throw base::ConfigError(arguments.out.string() +
                             ": is there already; name another file with --out");
+  }
+  const auto folder = std::filesystem::absolute(arguments.out).parent_path();
+  if (!std::filesystem::is_directory(folder)) {
+    throw base::ConfigError(arguments.out.string() + ": there is no folder " + folder.string() +
+                            "; make it, or name another file with --out");
   }
   if (arguments.photos.empty() && AsksOnTerminal()) AskForPhotographs(arguments);
   campaign::SpecAnswers answers = arguments.answers;

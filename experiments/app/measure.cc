@@ -13,6 +13,8 @@
 namespace talus::app {
 namespace {
 
+constexpr int kUsualViews = 16;
+
 // The flags as they are typed; lengths and angles carry their units.
 struct MeasureFlags {
   std::vector<std::string> inputs;
@@ -27,8 +29,9 @@ struct MeasureFlags {
   std::string length_unit;
   std::string powder = "auto";
   std::optional<double> threshold{};
-  int views = 16;
+  std::optional<int> views{};
   std::string diameter;  // of a drum
+  std::string circle_diameter;
   std::string turning;
   bool drum = false;
   bool map = false;
@@ -36,32 +39,57 @@ struct MeasureFlags {
   bool choose_mass = false;
 };
 
-// Flags that the input leaves without an effect.
+// What the input is, by the flags; each kind leaves some flags without an effect.
+enum InputKind : unsigned { kPhotos = 1, kMap = 2, kDrum = 4, kSpheres = 8 };
+
+struct InputKindText {
+  InputKind kind;
+  const char* text;
+};
+
+InputKindText InputKindOf(const MeasureFlags& flags) {
+  if (!flags.like.empty()) return {kSpheres, "has no effect on spheres"};
+  if (flags.drum) return {kDrum, "has no effect on a drum"};
+  if (flags.map) return {kMap, "has no effect on a map"};
+  return {kPhotos, "has no effect on photographs of a heap"};
+}
+
 void RefuseIdleFlags(const MeasureFlags& flags) {
   const auto refuse = [](bool given, const char* flag, const char* why) {
     if (given) throw base::ConfigError(std::string(flag) + ": " + why + "; leave it out");
   };
   refuse(!flags.tilt.empty() && flags.frame.empty(), "--tilt", "is of a plate given by --frame");
-  const char* kind = !flags.like.empty() ? "has no effect on spheres"
-                     : flags.drum        ? "has no effect on a drum"
-                     : flags.map         ? "has no effect on a map"
-                                         : nullptr;
-  if (kind == nullptr) return;
-  refuse(!flags.scale.empty(), "--scale", kind);
-  refuse(!flags.pixel_size.empty(), "--pixel-size", kind);
-  refuse(!flags.tilt.empty(), "--tilt", kind);
-  refuse(flags.threshold.has_value(), "--threshold", kind);
-  refuse(flags.powder != "auto", "--powder", kind);
-  refuse(flags.choose_mass, "--choose-mass", kind);
-  refuse(flags.map && (flags.drum || !flags.like.empty()), "--map", kind);
-  refuse(flags.drum && !flags.like.empty(), "--drum", kind);
+  struct Use {
+    const char* flag;
+    bool given;
+    unsigned kinds;  // on which it has an effect
+  };
+  const Use uses[] = {{"--scale", !flags.scale.empty(), kPhotos},
+                      {"--pixel-size", !flags.pixel_size.empty(), kPhotos},
+                      {"--tilt", !flags.tilt.empty(), kPhotos},
+                      {"--threshold", flags.threshold.has_value(), kPhotos},
+                      {"--powder", flags.powder != "auto", kPhotos},
+                      {"--choose-mass", flags.choose_mass, kPhotos},
+                      {"--map", flags.map, kMap},
+                      {"--drum", flags.drum, kDrum},
+                      {"--plate-diameter", !flags.plate_diameter.empty(), kPhotos | kMap},
+                      {"--frame", !flags.frame.empty(), kPhotos | kMap},
+                      {"--pattern", !flags.pattern.empty(), kPhotos},
+                      {"--allow-missing-views", flags.allow_missing_views, kPhotos},
+                      {"--views", flags.views.has_value(), kSpheres},
+                      {"--length-unit", !flags.length_unit.empty(), kSpheres}};
+  const auto [kind, why] = InputKindOf(flags);
+  for (const Use& use : uses) refuse(use.given && (use.kinds & kind) == 0, use.flag, why);
 }
 
 // What only one kind of test has stands with it alone.
 std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   if (!flags.drum) {
-    if (flags.diameter.empty() && flags.turning.empty()) return std::nullopt;
-    throw base::ConfigError("--diameter and --turning are of a drum; add --drum");
+    if (flags.diameter.empty() && flags.circle_diameter.empty() && flags.turning.empty()) {
+      return std::nullopt;
+    }
+    throw base::ConfigError(
+        "--diameter, --circle-diameter and --turning are of a drum; add --drum");
   }
   if (flags.diameter.empty()) {
     throw base::ConfigError("--diameter is missing; give the drum's with its unit: 84mm");
@@ -69,6 +97,10 @@ std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   imaging::DrumPhotos options{
       .photos = {},
       .diameter = FlagQuantity("--diameter", flags.diameter, base::Dimension::kLength)};
+  if (!flags.circle_diameter.empty()) {
+    options.circle_diameter =
+        FlagQuantity("--circle-diameter", flags.circle_diameter, base::Dimension::kLength);
+  }
   options.turning = base::EnumNamed<imaging::Turning>(flags.turning);
   return options;
 }
@@ -124,7 +156,7 @@ void Measure(const MeasureFlags& flags) {
                                  .drum = Drum(flags),
                                  .is_map = flags.map,
                                  .like = flags.like,
-                                 .num_views = flags.views,
+                                 .num_views = flags.views.value_or(kUsualViews),
                                  .length_unit = std::nullopt};
   RefuseIdleFlags(flags);
   if (!flags.length_unit.empty()) {
@@ -171,7 +203,10 @@ void AddDrumFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_flag("--drum", flags.drum,
                 "photographs of a turning drum, a series or its average: angle, fill, map");
   verb.add_option("--diameter", flags.diameter,
-                  "with --drum: of the circle where it meets what is around it, such as 84mm");
+                  "with --drum: of the drum inside, such as 84mm; of the circle that is seen, too, "
+                  "where there is no --circle-diameter");
+  verb.add_option("--circle-diameter", flags.circle_diameter,
+                  "with --drum: of the ring's outside, where that is the circle that is seen");
   verb.add_option("--turning", flags.turning,
                   "with --drum: as the camera sees it; default: read from the picture")
       ->check(CLI::IsMember(base::NamesOf<imaging::Turning>()));
@@ -196,7 +231,7 @@ void AddMeasureCommand(CLI::App& app) {
                    "the inputs are spheres: project and compare them like this AEHP, the folder "
                    "that --out wrote");
   verb->add_option("--views", flags->views, "views of spheres over 180 degrees")
-      ->capture_default_str();
+      ->default_str(std::to_string(kUsualViews));
   verb->add_option("--length-unit", flags->length_unit, "unit of a sphere file, such as mm");
   verb->callback([flags] { Measure(*flags); });
 }

@@ -1,6 +1,8 @@
 // When a search or a session ends: it is noted, and stays so; what was found is written.
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "base/error.h"
@@ -44,8 +46,13 @@ void Campaign::NoteStop(const std::vector<journal::TrialRecord>& planned) {
   NoteProgress();
 }
 
+// A result is that of the search as far as it had come: while this goes on there is none.
 void Campaign::NoteProgress() {
   journal_.SetProgress({.elapsed_s = Elapsed(), .stop_json = stop_json_});
+  std::error_code absent;
+  for (const auto& former : {folder_.result(), folder_.posterior()}) {
+    std::filesystem::remove(former, absent);
+  }
 }
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {

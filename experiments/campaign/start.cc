@@ -22,6 +22,8 @@
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/plausible.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/trials/engines/template_folder.h"
+#include "experiments/trials/engines/trial_engine.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
@@ -94,19 +96,18 @@ journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   return RebuildJournal(folder);
 }
 
-constexpr const char* kLock = "campaign.lock";
-
 // What may be in a folder that a campaign begins in: what a process that was killed, or another
 // that begins now, has left there before the campaign itself. No image is without the lock,
 // which is there first: a user's own may have these names.
 bool HoldsOnlyBeginnings(const CampaignFolder& folder) {
   constexpr std::string_view kCopies[] = {kCopiesFolder};
-  if (!fs::exists(folder.root / kLock)) return base::HoldsOnly(folder.root, kCopies);
+  if (!fs::exists(folder.root / trials::kCampaignLock))
+    return base::HoldsOnly(folder.root, kCopies);
   for (const auto& entry : fs::directory_iterator(folder.root)) {
     const std::string name = entry.path().filename();
     const bool is_image =
         name.ends_with(".png") && (name.starts_with("aehp") || name.starts_with("run_"));
-    const bool may_be_there = name == kLock || name == kCopiesFolder || is_image ||
+    const bool may_be_there = name == trials::kCampaignLock || name == kCopiesFolder || is_image ||
                               name.starts_with("experiment_") ||
                               name.find(".tmp") != std::string::npos;
     if (!may_be_there) return false;
@@ -223,6 +224,7 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
   const CampaignFolder folder{fs::absolute(root)};
   RequireOthers(options.reuse, folder);
   RequireNewFolder(folder, root);
+  if (spec.engine.kind == EngineKind::kCommand) trials::RequireOutside(spec.engine.command, root);
   options.check(spec);
   const journal::CampaignRecord record = MakeRecord(spec, file);
   const std::vector<Reference> references = ReferencesOf(record, spec);

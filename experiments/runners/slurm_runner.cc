@@ -12,6 +12,7 @@
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
 #include "base/text/name.h"
+#include "base/text/printable.h"
 #include "base/trimmed.h"
 #include "experiments/runners/slurm_end.h"
 #include "experiments/runners/slurm_verdict.h"
@@ -43,7 +44,9 @@ std::string NameOf(const fs::path& campaign) {
   constexpr std::size_t kMost = 40;
   fs::path folder = campaign.lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();  // it ends with a slash
-  return base::FileWord(folder.filename().string()).substr(0, kMost);
+  std::string name = base::FileWord(folder.filename().string()).substr(0, kMost);
+  while (!base::IsUtf8(name)) name.pop_back();  // a letter that was cut
+  return name;
 }
 
 // A lock that the commands started meanwhile inherit: as long as one of them runs, a later process

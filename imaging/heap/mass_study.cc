@@ -81,8 +81,9 @@ void JudgeRepeatability(MassRow& row, const MassRule& rule) {
 }  // namespace
 
 MassStudy StudyMass(std::span<const MassRun> runs, const MassRule& rule) {
-  std::map<double, std::vector<MassRun>> by_mass;
-  for (const MassRun& run : runs) by_mass[run.mass].push_back(run);
+  // By whole nanograms: 1.1 g and 1100 mg differ in the last bit.
+  std::map<long long, std::vector<MassRun>> by_mass;
+  for (const MassRun& run : runs) by_mass[std::llround(run.mass * 1e12)].push_back(run);
   MassStudy study;
   for (const auto& [mass, of_mass] : by_mass) study.rows.push_back(Summarise(of_mass));
   double largest_mean = 0;  // of this mass and the larger ones

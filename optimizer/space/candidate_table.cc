@@ -20,12 +20,37 @@ char SeparatorOf(const std::string& head) {
   return by_semicolons ? ';' : ',';
 }
 
-std::vector<std::string> Cells(const std::string& line, char separator) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, separator);) {
-    cells.emplace_back(base::Trimmed(cell, " \t\r\""));
-    if (separator == ';') std::ranges::replace(cells.back(), ',', '.');
+// A separator in quotes separates nothing, and two quotes in quotes are one.
+std::vector<std::string> Cells(const std::string& line, char separator, const std::string& place) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == separator && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  if (quoted) throw base::ConfigError(place + ": has a quote that is not closed in its line");
+  for (std::string& cell : cells) {
+    cell = base::Trimmed(cell, " \t\r\"");
+    if (separator == ';') std::ranges::replace(cell, ',', '.');
+  }
+  return cells;
+}
+
+// The cells of a row under the head; what is beyond it must be empty, as spreadsheets leave it.
+std::vector<std::string> RowCells(const std::string& line, char separator, std::size_t num_columns,
+                                  const std::string& place) {
+  const std::vector<std::string> cells = Cells(line, separator, place);
+  for (std::size_t i = num_columns; i < cells.size(); ++i) {
+    if (cells[i].empty()) continue;
+    throw base::ConfigError(place + ": has " + std::to_string(cells.size()) +
+                            " cells and the head " + std::to_string(num_columns) +
+                            (separator == ','
+                                 ? "; write decimals with a point, or semicolons between columns"
+                                 : "; name every column in the head"));
   }
   return cells;
 }
@@ -38,6 +63,10 @@ std::vector<std::size_t> Columns(const std::vector<std::string>& head,
     if (found == head.end()) {
       throw base::ConfigError(file + ":1: has no column \"" + name +
                               "\"; the head of the table must name every searched parameter");
+    }
+    if (std::find(found + 1, head.end(), name) != head.end()) {
+      throw base::ConfigError(file + ":1: has two columns \"" + name +
+                              "\"; name each searched parameter once");
     }
     columns.push_back(static_cast<std::size_t>(found - head.begin()));
   }
@@ -62,12 +91,13 @@ std::vector<std::vector<double>> ReadCandidateTable(const std::filesystem::path&
   std::string line;
   std::getline(text, line);
   const char separator = SeparatorOf(line);
-  const std::vector<std::size_t> columns = Columns(Cells(line, separator), names, path.string());
+  const std::vector<std::string> head = Cells(line, separator, path.string() + ":1");
+  const std::vector<std::size_t> columns = Columns(head, names, path.string());
   std::vector<std::vector<double>> rows;
   for (int number = 2; std::getline(text, line); ++number) {
-    const std::vector<std::string> cells = Cells(line, separator);
-    if (cells.empty() || (cells.size() == 1 && cells.front().empty())) continue;
     const std::string place = path.string() + ":" + std::to_string(number);
+    const std::vector<std::string> cells = RowCells(line, separator, head.size(), place);
+    if (std::ranges::all_of(cells, &std::string::empty)) continue;
     std::vector<double> row;
     for (const std::size_t column : columns) {
       if (column >= cells.size()) throw base::ConfigError(place + ": has too few columns");

@@ -135,7 +135,7 @@ class Campaign:
 
     @property
     def result(self):
-        """result.json as a dictionary; None before the campaign has ended once."""
+        """result.json as a dictionary; None before the campaign has ended, and while it goes on."""
         file = self.folder / "result.json"
         return json.loads(file.read_text()) if file.exists() else None
 

@@ -31,5 +31,13 @@ TEST(Name, FromOutsideBecomesOneLine) {
   EXPECT_EQ(OneLine(""), "");
 }
 
+// "müll" and "möll" were one folder, "ящик" and "中" another.
+TEST(Name, AsAFilesKeepsLettersOfAnyScript) {
+  EXPECT_EQ(FileWord("müll 2"), "müll-2");
+  EXPECT_EQ(FileWord("ящик.中"), "ящик-中");
+  EXPECT_EQ(FileWord("a/../b\x1b[2J\xff\u2028c\u00a0d"), "a-b-2J-c-d");
+  EXPECT_EQ(FileWord("//"), "test");
+}
+
 }  // namespace name_test
 }  // namespace talus::base

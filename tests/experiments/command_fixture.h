@@ -66,10 +66,19 @@ class CommandFixture : public ::testing::Test {
   static std::string FailureOf(const std::function<void()>& action) {
     return ErrorIn<base::Error>(action);
   }
-  std::string CheckErrors(const std::vector<std::string>& calibrated = {}) {
+  // A property of the powder, from its default to half of that.
+  static SearchedParameter Searched(const std::string& name) {
+    SearchedParameter searched{.name = name, .low = SmallCase(), .high = SmallCase()};
+    engine::Material::Visit(searched.high.powder.material,
+                            [&](std::string_view key, double& value, base::FieldInfo) {
+                              if (key == name) value /= 2;
+                            });
+    return searched;
+  }
+  std::string CheckErrors(const std::vector<SearchedParameter>& searched = {}) {
     base::Problems problems("spec.json", {});
     return ErrorIn([&] {
-      CheckCommand(options_, {.rig_case = SmallCase(), .calibrated = calibrated}, problems);
+      CheckCommand(options_, {.rig_case = SmallCase(), .searched = searched}, problems);
       problems.ThrowIfAny();
     });
   }

@@ -53,6 +53,14 @@ TEST(MassStudy, ScatterAndDaysDecideRepeatability) {
   EXPECT_THAT(study.rows[2].remark, HasSubstr("one run"));
 }
 
+TEST(MassStudy, OneMassInTwoUnitsIsOneRow) {
+  ASSERT_NE(1.1 * 1e-3, 1100 * 1e-6);  // in the last bit
+  const MassStudy study =
+      StudyMass(Runs(1.1 * 1e-3, {18, 18.2}, 1) + Runs(1100 * 1e-6, {18.1, 17.9}, 1));
+  ASSERT_EQ(study.rows.size(), 1u);
+  EXPECT_EQ(study.rows[0].num_runs, 4);
+}
+
 TEST(MassStudy, PlotShowsTheRuns) {
   const auto runs = Runs(1e-3, {17, 17.2}, 1) + Runs(2e-3, {18, 18.2}, 1);
   const ColorImage plot = DrawMassStudy(runs, StudyMass(runs));

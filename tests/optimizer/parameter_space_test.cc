@@ -88,6 +88,22 @@ TEST(CandidateTable, SemicolonsSeparateWhereThereAreNoCommas) {
   EXPECT_EQ(ReadCandidateTable(path, {"a", "b"}), (std::vector<std::vector<double>>{{1.5, 2}}));
 }
 
+// They were read as the neighbour's numbers, without a word.
+TEST(CandidateTable, CellsThatBelongToNoColumnAreRefusedAndQuotedOnesAreOne) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "cells.csv";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return ReadCandidateTable(path, {"a", "b"});
+  };
+  using Rows = std::vector<std::vector<double>>;
+  EXPECT_EQ(read("note,a,b\n\"run 7, \"\"0.9\"\"\",0.1,\"0.2\"\n"), (Rows{{0.1, 0.2}}));
+  EXPECT_EQ(read("a,b,,\n0.1,0.2,,\n,,,\n"), (Rows{{0.1, 0.2}}));
+  EXPECT_THAT(ErrorIn([&] { read("a,b\n0,1,0,2\n"); }),
+              HasSubstr("cells.csv:2: has 4 cells and the head 2; write decimals with a point"));
+  EXPECT_THAT(ErrorIn([&] { read("a,b,a\n1,2,3\n"); }), HasSubstr("two columns \"a\""));
+  EXPECT_THAT(ErrorIn([&] { read("a,b\n\"1,2\n"); }), HasSubstr("cells.csv:2: has a quote"));
+}
+
 TEST(ParameterSpace, WantsOneToSixFreeParameters) {
   EXPECT_THAT(ErrorOf(R"({"parameters": [{"name": "a", "fixed": 1}]})"), HasSubstr("0 are free"));
   std::string list;

@@ -64,6 +64,18 @@ class CommandLine(unittest.TestCase):
             self.assertIn(f'did you mean "{meant}"?', done.stderr)
         self.assertNotIn("did you mean", talus("qqqqqqqq").stderr)
 
+    def test_init_refuses_a_name_that_no_spec_can_hold(self):
+        with tempfile.TemporaryDirectory() as folder:
+            photos = os.fsencode(folder) + b"/m\xfcll"
+            os.mkdir(photos)
+            shutil.copy(SOURCE / "examples/photos/powder_a/run01_view00.jpg", photos + b"/run01_view00.jpg")
+            done = talus("init", photos, "--out", f"{folder}/spec.json", "--plate-diameter", "10mm", "--tube-diameter",
+                         "10mm", "--lift-velocity", "1mm/s", "--mass", "1g", "--density", "4g/cm^3", "--grain-diameter",
+                         "0.4mm")
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("is not UTF-8", done.stderr)
+            self.assertFalse(os.path.exists(f"{folder}/spec.json"))
+
     def test_every_man_page_is_set_without_a_warning(self):
         for arguments in [[]] + [[verb] for verb in verbs()]:
             page = talus("man", *arguments)

@@ -64,6 +64,12 @@ def check_film(talus, root):
         said = run(talus, "simulate", root / "case.json", "--out", root / "other", "--film", place, status=2)
         assert why in said and not (root / "other").exists(), said
     assert (root / "mine/0001.png").read_text() == "mine"
+    # A film is made anew, another's picture left alone.
+    (root / "mine/cat.gif").write_bytes(b"GIF89a cat;")
+    said = run(talus, "simulate", root / "case.json", "--out", root / "other", "--film", root / "mine/cat.gif", status=2)
+    assert "has not written" in said and (root / "mine/cat.gif").read_bytes() == b"GIF89a cat;", said
+    run(talus, "simulate", root / "case.json", "--out", root / "heap", "--film", film, "--quiet")
+    assert film.read_bytes() == gif
     (root / "scene.json").write_text('{"materials": [{}]}')
     said = run(talus, "simulate", root / "scene.json", "--out", root / "scene", "--film", film, status=2)
     assert "--film is for the case of a bulk test" in said, said

@@ -153,6 +153,28 @@ class Names(unittest.TestCase):
         self.assertEqual(validated.returncode, 0, validated.stderr)
         self.assertIn(read, validated.stdout)
 
+    # Heaps were taken for days, and the days that the outer folders name were lost.
+    def test_a_folder_a_heap_is_a_heap_of_its_mass_and_day(self):
+        def measure(name, *folders):
+            photos = self.copy(name)
+            done = run(*[photos / folder for folder in folders], "--choose-mass", "--plate-diameter", "10mm")
+            shutil.rmtree(photos)
+            return done
+
+        masses = ["1.0g_day1", "1.0g_day1", "1000mg_day2"]
+        done = measure(lambda run, view: f"{masses[run]}/r{run}/IMG_{view}.jpg", "1.0g_day1", "1000mg_day2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"\n  1 +3 .*day1: .* \(2\)  day2: .* \(1\)")
+        done = measure(lambda run, view: f"1.0g/{run}/IMG_{view}.jpg", "1.0g")
+        self.assertRegex(done.stdout, r"\n  1 +3 .* 1: .* \(3\)")
+        done = measure(lambda run, view: f"1.0g/day{run}/IMG_{view}.jpg", "1.0g")
+        self.assertRegex(done.stdout, r"day0: .* \(1\)  day1: .* \(1\)  day2")
+        done = measure(lambda run, view: f"1.0g/monday/r{run}/IMG_{view}.jpg", "1.0g")
+        self.assertRegex(done.stdout, r"\n  1 +3 .* monday: .* \(3\)")
+        done = measure(lambda run, view: f"1.0g/{run}/IMG_{view}.jpg", "1.0g", "../photos/1.0g")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("named twice", done.stderr)
+
     def test_several_heaps_in_one_folder_are_never_silently_one(self):
         named = {
             "time": (lambda run, view: f"IMG_20260131_1{run}0{view}11.jpg", "taken 55 min after IMG_20260131_100511.jpg"),

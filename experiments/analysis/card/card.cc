@@ -172,6 +172,7 @@ Card ReadCard(const std::filesystem::path& path) {
     card.deck = DeckOf(*engine, rig_case, PowderPlaceholders());
   }
   card.title = path.filename().string();
+  card.is_calibrated = false;
   return card;
 }
 

@@ -76,6 +76,7 @@ struct Card {
   std::vector<CardTest> tests{};     // one at least
   std::vector<CardRange> ranges{};   // none for a lone case
   std::vector<std::string> notes{};  // of the campaign: what is doubtful
+  bool is_calibrated = true;         // not a case as it is
   std::optional<CardDeck> deck{};    // its values are the deck's, and our laws say nothing of them
 };
 

@@ -83,8 +83,9 @@ std::string DeckCardText(const Card& card, CardFormat format) {
   const std::string mark = DeckMark(format);
   std::ostringstream text;
   text << mark << base::OneLine(card.title)
-       << ", calibrated with talus by a deck of its own: " << base::OneLine(card.deck->command)
-       << " (" << base::OneLine(card.deck->templates) << ").\n"
+       << (card.is_calibrated ? ", calibrated with talus" : ", a case of talus as it is")
+       << ", by a deck of its own: " << base::OneLine(card.deck->command) << " ("
+       << base::OneLine(card.deck->templates) << ").\n"
        << mark << "Here are the " << kNothingConverted << ".\n";
   for (const auto& [name, value] : card.deck->placeholders) {
     text << mark << "  {{ " << name << " }} = " << value << RangeOfPlaceholder(card, name) << '\n';

@@ -63,8 +63,9 @@ std::string JkrText(const engine::ContactModels& models, const std::string& mark
 
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark) {
   std::ostringstream text;
-  text << mark << base::OneLine(card.title) << ", calibrated with talus, for " << code
-       << ". SI units.\n"
+  text << mark << base::OneLine(card.title)
+       << (card.is_calibrated ? ", calibrated with talus" : ", a case of talus as it is")
+       << ", for " << code << ". SI units.\n"
        << mark << "Holds together with: scale factor " << CardNumber(card.scale_factor)
        << " (grains of " << CardNumber(card.mean_diameter * 1e3)
        << " mm, D50), Young's modulus as below, time step up to " << CardNumber(card.time_step)

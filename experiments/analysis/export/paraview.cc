@@ -132,6 +132,15 @@ std::string StateText(const fs::path& folder, const std::vector<engine::Wall>& w
          "Render(view)\n";
 }
 
+bool HasHeaps(const fs::path& campaign) {
+  const campaign::CampaignFolder folder{campaign};
+  std::error_code absent;
+  for (const auto& trial : fs::directory_iterator(folder.trial(1).parent_path(), absent)) {
+    if (fs::exists(trial.path() / "heap.vtp")) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 fs::path ExportVtk(const VtkExport& request) {
@@ -139,8 +148,11 @@ fs::path ExportVtk(const VtkExport& request) {
   const fs::path trial = campaign::CampaignFolder{request.campaign}.trial(id);
   const fs::path heap = trial / "heap.vtp";
   if (!fs::exists(heap)) {
-    throw base::ConfigError(heap.string() + ": is not there; --trial names another trial (" +
-                            "`talus export` lists them)");
+    throw base::ConfigError(heap.string() + ": is not there; " +
+                            (HasHeaps(request.campaign)
+                                 ? "--trial names another trial (`talus export` lists them)"
+                                 : "no trial here has left spheres, as of a deck that leaves "
+                                   "numbers or images alone"));
   }
   const rigs::Case rig_case = trials::LoadAnyCase(trial / "case.json");
   double top = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/text/name.h"
@@ -11,6 +12,22 @@
 #include "experiments/campaign/folder/record_file.h"
 
 namespace talus::analysis {
+
+std::string SourceSeenFrom(const std::filesystem::path& campaign,
+                           const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  const fs::path place = fs::weakly_canonical(fs::absolute(file));
+  return place.lexically_proximate(fs::weakly_canonical(fs::absolute(campaign))).string();
+}
+
+void RequireSameCase(const PredictionDesign& stored, const PredictionDesign& wanted,
+                     const std::filesystem::path& folder) {
+  if (stored.source.empty() || stored.source == wanted.source || stored.test == wanted.test) return;
+  throw base::ConfigError(folder.string() + ": holds the prediction of another case, " +
+                          stored.source +
+                          ", whose file has the same name; rename one of the files, or remove "
+                          "this folder");
+}
 
 PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options) {
   namespace fs = std::filesystem;

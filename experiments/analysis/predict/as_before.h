@@ -2,12 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/analysis/predict/prediction_design.h"
 
 namespace talus::analysis {
+
+// The case's file seen from the campaign's folder: a project that is moved as a whole keeps it.
+std::string SourceSeenFrom(const std::filesystem::path& campaign,
+                           const std::filesystem::path& file);
+
+// Throws ConfigError where `folder` holds another case's prediction: two cases of one file name
+// would take turns in it, each with the other's trials gone.
+void RequireSameCase(const PredictionDesign& stored, const PredictionDesign& wanted,
+                     const std::filesystem::path& folder);
 
 // `options` with what an earlier call for this file had, where it has ended.
 // With draws enough for a surrogate.

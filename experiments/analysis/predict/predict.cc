@@ -152,8 +152,10 @@ class Predictor {
                             .by = options_.By(),
                             .num_draws = num_draws_,
                             .last_trial = LastTrial(),
-                            .stages = {}};
+                            .stages = {},
+                            .source = SourceSeenFrom(view_.folder.root, options_.file)};
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
+    if (stored) RequireSameCase(*stored, wanted, root_);
     if (stored && options_.as_before) {
       wanted.last_trial = stored->last_trial;
       if (!stored->stages.empty() && stored->test == wanted.test) {

@@ -19,9 +19,10 @@ struct PredictionDesign {
   std::vector<std::vector<double>> points{};  // unit cube
   std::vector<double> weights{};
   std::vector<PredictionStage> stages{};
+  std::string source{};  // the case's file, seen from the campaign's folder
 
   static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"}};
-  TALUS_FIELDS(test, frame, by, num_draws, last_trial, points, weights, stages);
+  TALUS_FIELDS(test, frame, by, num_draws, last_trial, points, weights, stages, source);
 };
 
 }  // namespace talus::analysis

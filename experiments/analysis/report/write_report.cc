@@ -23,6 +23,9 @@ std::string OwnFolder(const Evidence& evidence) {
 // Each experiment's in a folder of its own, the shown one's in `folder`.
 void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
+  for (const char* former : {"next_", "predict_", "remains_"}) {
+    base::RemoveFormerFiles(folder, former);
+  }
   for (const Picture& picture : data.pictures) WritePicture(folder, picture);
   for (const RepresentativeView& view : data.representative) WritePicture(folder, view.heap);
   if (data.next_table) {
@@ -58,6 +61,8 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   WriteTables(data, folder / "tables");
   if (const std::string summary = SummaryPage(data); !summary.empty()) {
     base::WriteFileAtomically(folder / "summary.html", summary);
+  } else {
+    std::filesystem::remove(folder / "summary.html");  // of a search that goes on since
   }
   base::WriteFileAtomically(folder / "report.html", ReportPage(data, page));
   return folder / "report.html";

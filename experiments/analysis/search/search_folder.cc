@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -90,13 +91,15 @@ Json At(const Json& object, const std::string& key) {
 }
 
 SearchAnswer AnswerOf(const Json& result, const std::vector<SearchParameter>& parameters) {
-  SearchAnswer answer{.predicted_value = NumberAt(result, "predicted_value"),
-                      .predicted_sd = NumberAt(result, "predicted_sd"),
-                      .noise_sd = NumberAt(result, "noise_sd"),
-                      .tied_volume = NumberAt(result, "tied_volume"),
-                      .stopped = result.value("stopped", ""),
-                      .model = result.value("model", ""),
-                      .warnings = result.value("warnings", std::vector<std::string>{})};
+  SearchAnswer answer{
+      .predicted_value = NumberAt(result, "predicted_value"),
+      .predicted_sd = NumberAt(result, "predicted_sd"),
+      .noise_sd = NumberAt(result, "noise_sd"),
+      .tied_volume = NumberAt(result, "tied_volume"),
+      .num_evaluations = result.value("evaluations", std::numeric_limits<int>::max()),
+      .stopped = result.value("stopped", ""),
+      .model = result.value("model", ""),
+      .warnings = result.value("warnings", std::vector<std::string>{})};
   for (const SearchParameter& parameter : parameters) {
     const Json range = At(At(result, "ranges_90"), parameter.name);
     answer.parameters.push_back(
@@ -138,7 +141,11 @@ SearchFolder ReadSearchFolder(const fs::path& folder) {
     if (result) search.answer = AnswerOf(Json::parse(*result), search.parameters);
   } catch (const Json::exception&) {
   }
-  if (!search.answer) {
+  if (search.answer) {  // of fewer than were made, where the problem has come to allow fewer
+    std::erase_if(search.evaluations, [&](const SearchEvaluation& one) {
+      return one.number > search.answer->num_evaluations;
+    });
+  } else {
     throw base::ConfigError(result_path.string() +
                             ": is damaged; the same `talus optimize` writes it anew");
   }

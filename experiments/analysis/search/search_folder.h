@@ -39,7 +39,8 @@ struct SearchAnswer {
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();
   double noise_sd = std::numeric_limits<double>::quiet_NaN();
   double tied_volume = std::numeric_limits<double>::quiet_NaN();
-  std::string stopped{};  // why
+  int num_evaluations = std::numeric_limits<int>::max();  // that it is made of, the first ones
+  std::string stopped{};                                  // why
   std::string model{};
   std::vector<std::string> warnings{};
 };

@@ -1,7 +1,6 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +12,7 @@
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
 #include "base/text/number_text.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::campaign {
 namespace {
@@ -33,7 +33,7 @@ std::filesystem::path CampaignFolder::experiment(std::size_t index) const {
 }
 
 CampaignLock::CampaignLock(const std::filesystem::path& root) {
-  const std::string path = (root / "campaign.lock").string();
+  const std::string path = (root / trials::kCampaignLock).string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) base::ThrowUnwritten(path, errno);
   const base::LockEnd end = base::LockWithin(file_, kPatience, kPause);
@@ -64,11 +64,7 @@ CampaignLock::~CampaignLock() {
 }
 
 bool IsWorkedOn(const std::filesystem::path& root) {
-  const int file = ::open((root / "campaign.lock").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
-  ::close(file);
-  return !free;
+  return base::IsLocked(root / trials::kCampaignLock);
 }
 
 void RequireWritable(const std::filesystem::path& root) {

@@ -42,6 +42,7 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
     return;
   }
   CheckTemplates(spec, problems);
+  if (!std::filesystem::is_directory(*spec.engine.command.templates)) return;  // which is said
   spec.engine.command.templates_hash =
       trials::TemplateFolder(*spec.engine.command.templates).Hash();
 }
@@ -52,21 +53,31 @@ void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
   if (spec.engine.kind != EngineKind::kCommand) return;
   const optimizer::ParameterSpace space = SpaceOf(spec);
   std::vector<double> values;
-  std::vector<std::string> calibrated;
   for (const optimizer::Parameter& parameter : space.parameters) {
     values.push_back(parameter.fixed.value_or(parameter.low));
-    // What is of the bulk reaches a deck by the grains and the lengths that follow from it.
-    if (!parameter.fixed && !IsOfBulk(parameter.name)) calibrated.push_back(parameter.name);
   }
-  rigs::Case rig_case = CaseOf(
-      spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
-  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {  // whose pairs it must know, too
-    rig_case.pairs.insert(rig_case.pairs.end(), experiment.pairs->begin(), experiment.pairs->end());
+  const auto case_at = [&](const std::vector<double>& point) {
+    rigs::Case rig_case = CaseOf(
+        spec, {.values = point, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
+    for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {  // whose pairs it must know, too
+      rig_case.pairs.insert(rig_case.pairs.end(), experiment.pairs->begin(),
+                            experiment.pairs->end());
+    }
+    return rig_case;
+  };
+  const rigs::Case rig_case = case_at(values);
+  std::vector<trials::SearchedParameter> searched;
+  for (std::size_t i = 0; i < space.parameters.size(); ++i) {
+    const optimizer::Parameter& parameter = space.parameters[i];
+    if (parameter.fixed) continue;
+    std::vector<double> end = values;
+    end[i] = parameter.high;
+    searched.push_back({.name = parameter.name, .low = rig_case, .high = case_at(end)});
   }
   problems.Within("engine", [&] {
     trials::CheckCommand(spec.engine.command,
                          {.rig_case = rig_case,
-                          .calibrated = calibrated,
+                          .searched = searched,
                           .elsewhere = spec.runner.kind != RunnerKind::kLocal},
                          problems);
   });

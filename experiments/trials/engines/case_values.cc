@@ -1,5 +1,8 @@
 #include "experiments/trials/engines/case_values.h"
 
+#include <algorithm>
+#include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "base/prime.h"
@@ -113,6 +116,18 @@ void AddSizes(const rigs::Case& c, Scalars& scalars) {
   scalars["time_step"] = base::ExactNumber(size.time_step);
 }
 
+bool IsOneOf(std::string_view name, std::span<const std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// "tube" of "tube_sliding_friction", whose powder's namesake is another; "" of the powder's own.
+std::string_view BodyOf(std::string_view name) {
+  for (const std::string_view body : {"plate", "tube"}) {
+    if (name.starts_with(body) && name.substr(body.size()).starts_with('_')) return body;
+  }
+  return "";
+}
+
 }  // namespace
 
 TemplateValues CaseValues(const rigs::Case& c) {
@@ -152,6 +167,29 @@ std::vector<std::string> StatedPlaceholders(const rigs::Case& c) {
           if (value) names.push_back(PairPrefix(*rigs::PartnerOf(pair)) + std::string(key));
         });
   }
+  return names;
+}
+
+std::vector<std::string> PlaceholdersOf(const std::string& parameter, const rigs::Case& low,
+                                        const rigs::Case& high) {
+  static constexpr std::string_view kSizes[] = {
+      "num_grains",       "mass",          "smallest_diameter", "mean_diameter",
+      "largest_diameter", "filled_height", "tube_length",       "rig_fill"};
+  static constexpr std::string_view kOfTheRun[] = {"time_step", "lifted_time", "end_time",
+                                                   "box_height"};
+  const TemplateValues at_low = CaseValues(low);
+  const TemplateValues at_high = CaseValues(high);
+  const bool is_of_bulk = IsOneOf(parameter, kSizes) || !at_low.scalars.contains(parameter);
+  std::vector<std::string> names;
+  for (const auto& [name, value] : at_low.scalars) {
+    const auto other = at_high.scalars.find(name);
+    if (other != at_high.scalars.end() && other->second == value) continue;
+    if (IsOneOf(name, kOfTheRun) || IsOneOf(name, kSizes) != is_of_bulk) continue;
+    if (is_of_bulk || BodyOf(name) == BodyOf(parameter)) names.push_back(name);
+  }
+  if (is_of_bulk && !names.empty()) names.emplace_back("grains");
+  if (names.empty()) names.push_back(parameter);
+  std::ranges::stable_partition(names, [&](const auto& name) { return name == parameter; });
   return names;
 }
 

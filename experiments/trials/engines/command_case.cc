@@ -74,7 +74,7 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
   problems.Require(heap.frame || heap.rig.kind != rigs::RigKind::kLiftedTube, "frame",
                    "is missing: the result is measured in it");
   problems.Within("engine", [&] {
-    CheckCommand(engine, {.rig_case = heap, .calibrated = {}, .elsewhere = false}, problems);
+    CheckCommand(engine, {.rig_case = heap, .searched = {}, .elsewhere = false}, problems);
   });
   problems.ThrowIfAny();
   if (engine.templates_hash.empty()) {

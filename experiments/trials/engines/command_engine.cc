@@ -12,6 +12,7 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/joined.h"
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
@@ -38,6 +39,7 @@ namespace fs = std::filesystem;
 using base::Outlives;
 
 constexpr const char* kKind = "command";
+constexpr const char* kCaseFile = "case.json";
 // Left by the shell that runs the command, when it has ended well.
 constexpr const char* kDone = ".command_done";
 constexpr const char* kMpiLauncher = "mpirun";
@@ -219,6 +221,20 @@ bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templat
   return options.ranks.value_or(1) > 1 && !templates.Uses(options, "ranks");
 }
 
+void RequireTaken(const CommandOptions& options, const TemplateFolder& templates,
+                  const SearchedParameter& searched, base::Problems& problems) {
+  const std::vector<std::string> names = PlaceholdersOf(searched.name, searched.low, searched.high);
+  const auto is_used = [&](const std::string& name) { return templates.Uses(options, name); };
+  const std::vector<std::string> others(names.begin() + 1, names.end());
+  problems.Require(
+      std::ranges::any_of(names, is_used), "templates",
+      options.templates->string() + ": no file has the placeholder {{ " + names.front() + " }}" +
+          (others.empty()
+               ? ""
+               : ", nor another that follows from it (" + base::Joined(others, ", ") + ")") +
+          ", so that searching " + searched.name + " would change nothing");
+}
+
 // Processor time of all that the command's shell has waited for, by the second line of `times`,
 // "0m6.90s 0m0.10s"; 0 where it is not known [s].
 double CpuTimeOf(const fs::path& mark) {
@@ -243,7 +259,14 @@ CommandEngine::CommandEngine(const CommandOptions& options, FormerFiles former)
 }
 
 void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
-  PrepareFolder(folder, "case.json", CaseText({.heap = rig_case, .engine = options_}));
+  const std::string key = CaseText({.heap = rig_case, .engine = options_});
+  if (former_ == FormerFiles::kRemove) {
+    PrepareFolder(folder, kCaseFile, key);
+  } else if (!HoldsKey(folder, kCaseFile, key)) {
+    Forget(folder);
+    for (const char* own : {"heap.vtp", "profile.png"}) fs::remove(folder / own);
+    base::WriteFileAtomically(folder / kCaseFile, key, Outlives::kProgram);
+  }
   if (IsComplete(folder)) return;
   for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
@@ -261,7 +284,7 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
 }
 
 bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
-  return HoldsKey(folder, "case.json", CaseText({.heap = rig_case, .engine = options_})) &&
+  return HoldsKey(folder, kCaseFile, CaseText({.heap = rig_case, .engine = options_})) &&
          HasPrepared(folder);
 }
 
@@ -308,7 +331,7 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
 std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case,
                                                       const fs::path& from) {
-  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
+  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / kCaseFile));
   if (auto difference = rigs::RunDifference(made.heap, rig_case)) return difference;
   const auto engines = base::JsonChanges(EngineJson(made.engine), EngineJson(options_));
   if (!engines.empty() && engines.front().path == "templates_hash") {
@@ -328,18 +351,23 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
 bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
   if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
-  base::WriteFileAtomically(to / "case.json", CaseText({.heap = rig_case, .engine = options_}));
+  base::WriteFileAtomically(to / kCaseFile, CaseText({.heap = rig_case, .engine = options_}));
   return true;
 }
 
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
-  const TemplateFolder templates(options.templates.value());
-  std::vector<std::string> needed = check.calibrated;
-  for (std::string& name : StatedPlaceholders(check.rig_case)) {
-    if (std::ranges::find(needed, name) == needed.end()) needed.push_back(std::move(name));
+  if (!fs::is_directory(options.templates.value())) {
+    return problems.Add("templates", options.templates->string() +
+                                         ": is no folder; name that of the engine's input files");
   }
-  templates.Check(options, ValuesOf(options, check.rig_case), needed, problems);
+  const TemplateFolder templates(*options.templates);
+  const std::vector<std::string> stated = StatedPlaceholders(check.rig_case);
+  templates.Check(options, ValuesOf(options, check.rig_case), stated, problems);
+  for (const SearchedParameter& searched : check.searched) {
+    if (std::ranges::find(stated, searched.name) != stated.end()) continue;
+    RequireTaken(options, templates, searched, problems);
+  }
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

@@ -13,8 +13,8 @@
 
 namespace talus::trials {
 
-// What Prepare makes of files that an attempt without an end has left: in a folder of the user's
-// some may be the user's own.
+// What Prepare makes of files that an attempt without an end, or another case, has left: in a
+// folder of the user's some may be the user's own. To keep them it needs a folder that is there.
 enum class FormerFiles { kRemove, kKeep };
 
 class CommandEngine : public TrialEngine {
@@ -42,11 +42,18 @@ class CommandEngine : public TrialEngine {
   FormerFiles former_;
 };
 
-// What can be known to be wrong before anything runs: unknown placeholders, ones of `calibrated`
+// A parameter, and the cases at either end of its range.
+struct SearchedParameter {
+  std::string name;
+  rigs::Case low;
+  rigs::Case high;
+};
+
+// What can be known to be wrong before anything runs: unknown placeholders, a searched parameter
 // that nothing uses, and, unless `elsewhere` (a cluster's nodes), a program that is not there.
 struct CommandCheck {
   const rigs::Case& rig_case;  // any of the campaign
-  std::vector<std::string> calibrated;
+  std::vector<SearchedParameter> searched;
   bool elsewhere = false;
 };
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,

@@ -36,14 +36,22 @@ journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> va
   return scalar;
 }
 
-// Masses, lengths, times and most others; an angle may lie on either side.
+// Masses, lengths, times and most others are not negative; a share has a most, an angle both.
 void RequirePossible(const std::string& file, const std::vector<journal::MetricRecord>& scalars) {
+  constexpr double kRounded = 1 + 1e-6;  // a number that is printed with six digits
   for (const journal::MetricRecord& scalar : scalars) {
-    if (rigs::BoundsOf(scalar.name).low < 0) continue;
-    if (scalar.undefined.empty() && scalar.value < 0) {
-      throw base::Error("left " + file + " with \"" + scalar.name + "\" " +
-                        base::ShortNumber(scalar.value) + ", which cannot be negative");
+    if (!scalar.undefined.empty()) continue;
+    const auto [low, high] = rigs::BoundsOf(scalar.name);
+    const std::string what = "left " + file + " with \"" + scalar.name + "\" " +
+                             base::ShortNumber(scalar.value) + ", which cannot be ";
+    if (low == 0 && scalar.value < 0) {
+      throw base::Error(what + "negative; write null for no value");
     }
+    if (scalar.value >= low * kRounded && scalar.value <= high * kRounded) continue;
+    throw base::Error(what +
+                      (scalar.value < low ? "below " + base::ShortNumber(low)
+                                          : "above " + base::ShortNumber(high)) +
+                      "; write null for no value");
   }
 }
 
@@ -126,6 +134,8 @@ fs::path ScalarFile(const fs::path& folder) {
   }
   return {};
 }
+
+bool IsScalarName(const fs::path& name) { return name == kJson || name == kCsv; }
 
 std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
   const fs::path file = ScalarFile(folder);

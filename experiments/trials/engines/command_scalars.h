@@ -19,6 +19,9 @@ std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text);
 // The one of the two that is read; empty where there is neither.
 std::filesystem::path ScalarFile(const std::filesystem::path& folder);
 
+// Whether a file of this name, relative to the trial's folder, would be read for the numbers.
+bool IsScalarName(const std::filesystem::path& name);
+
 // Takes away what an earlier attempt has left.
 void RemoveScalars(const std::filesystem::path& folder);
 

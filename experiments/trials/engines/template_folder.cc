@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/trials/engines/command_result.h"
+#include "experiments/trials/engines/command_scalars.h"
 
 namespace talus::trials {
 namespace {
@@ -36,7 +37,10 @@ TemplateFolder::TemplateFolder(const fs::path& folder) : folder_(folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
     const fs::path path = entry.path().lexically_relative(folder);
     std::error_code dangling;
-    if (entry.is_directory(dangling) && !entry.is_symlink()) continue;
+    if (entry.is_directory(dangling) && !entry.is_symlink()) {
+      folders_.push_back(path);
+      continue;
+    }
     if (!entry.is_regular_file(dangling)) {
       throw base::ConfigError(entry.path().string() +
                               ": is a pipe, a device, or a link to a folder or to nothing; a "
@@ -76,6 +80,9 @@ void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& k
     problems.Require(!IsResultName(engine, file.path), "templates",
                      (folder_ / file.path).string() + ": fits \"" + engine.result +
                          "\", so that it would be taken for every trial's result; take it out");
+    problems.Require(
+        !IsScalarName(file.path), "templates",
+        (folder_ / file.path).string() + ": would be taken for every trial's numbers; take it out");
   }
   problems.Within("command", [&] {
     for (const TextTemplate& part : CommandParts(engine)) part.Check(known, problems);
@@ -83,7 +90,7 @@ void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& k
   for (const std::string& name : needed) {
     problems.Require(Uses(engine, name), "templates",
                      folder_.string() + ": no file has the placeholder {{ " + name +
-                         " }}, so that giving or searching " + name + " would change nothing");
+                         " }}, so that giving " + name + " would change nothing");
   }
 }
 
@@ -104,14 +111,26 @@ std::string TemplateFolder::Hash() const {
 }
 
 void TemplateFolder::Fill(const TemplateValues& values, const fs::path& target) const {
+  for (const fs::path& folder : folders_) fs::create_directories(target / folder);
   for (const File& file : files_) {
     const fs::path path = target / file.path;
-    fs::create_directories(path.parent_path());
     // Made again from the template after a power cut, so there is no need to wait for the disk.
     base::WriteFileAtomically(path, file.text ? file.text->Fill(values) : file.bytes,
                               base::Outlives::kProgram);
     fs::permissions(path, fs::status(folder_ / file.path).permissions());
   }
+}
+
+void RequireOutside(const CommandOptions& engine, const fs::path& folder) {
+  if (!engine.templates) return;
+  std::error_code unreachable;  // which reading and writing say
+  const fs::path templates = fs::canonical(*engine.templates, unreachable);
+  if (templates.empty()) return;
+  const fs::path place = fs::weakly_canonical(fs::absolute(folder), unreachable);
+  if (std::ranges::mismatch(templates, place).in1 != templates.end()) return;
+  throw base::ConfigError(folder.string() +
+                          ": lies among the templates (engine.templates), which it would change; "
+                          "name a folder outside with --out");
 }
 
 std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values) {

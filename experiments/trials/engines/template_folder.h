@@ -29,7 +29,8 @@ class TemplateFolder {
   // The hash of names and contents; 16 hexadecimal digits.
   std::string Hash() const;
 
-  // Writes the filled files, with the permissions of their templates.
+  // Makes the folders, empty ones too, and writes the filled files with the permissions of their
+  // templates.
   void Fill(const TemplateValues& values, const std::filesystem::path& target) const;
 
  private:
@@ -39,8 +40,12 @@ class TemplateFolder {
     std::optional<TextTemplate> text;  // without one it is copied as it is
   };
   std::filesystem::path folder_;
-  std::vector<File> files_;  // by name
+  std::vector<File> files_;                     // by name
+  std::vector<std::filesystem::path> folders_;  // relative to the folder, in any order
 };
+
+// Throws ConfigError where a run's folder would lie among the templates, which it would change.
+void RequireOutside(const CommandOptions& engine, const std::filesystem::path& folder);
 
 // The command with its placeholders filled.
 std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::string_view kOpening = "{{";
 constexpr std::string_view kClosing = "}}";
+constexpr std::string_view kQuotedOpening = "\"{{\"";
+constexpr const char* kWayOut = "; two braces of the file's own are written {{ \"{{\" }}";
 constexpr std::string_view kBlank = " \t\r";
 
 bool IsName(std::string_view text) {
@@ -38,7 +40,8 @@ TextTemplate::TextTemplate(std::string_view text, std::string file) : file_(std:
     if (text.empty()) break;
     const std::size_t end = text.find(kClosing);
     if (end == std::string_view::npos) {
-      throw base::ConfigError(file_ + ":" + std::to_string(line) + ": \"{{\" has no \"}}\"");
+      throw base::ConfigError(file_ + ":" + std::to_string(line) + ": \"{{\" has no \"}}\"" +
+                              kWayOut);
     }
     AddTag(base::Trimmed(text.substr(kOpening.size(), end - kOpening.size()), kBlank), line);
     text.remove_prefix(end + kClosing.size());
@@ -54,9 +57,12 @@ void TextTemplate::AddTag(std::string_view inner, int line) {
     inner = base::Trimmed(inner.substr(1), kBlank);
   }
   tag.text = inner;
-  if (!IsName(inner)) {
+  if (inner == kQuotedOpening) {
+    tag.kind = Kind::kBraces;
+    tag.text = kOpening;
+  } else if (!IsName(inner)) {
     throw base::ConfigError(Place(tag) + "\"{{ " + tag.text +
-                            " }}\" must hold a name of letters, digits and _");
+                            " }}\" must hold a name of letters, digits and _" + kWayOut);
   }
   parts_.push_back(std::move(tag));
 }
@@ -64,7 +70,7 @@ void TextTemplate::AddTag(std::string_view inner, int line) {
 void TextTemplate::DropLinesOfLoneTags() {
   // Parts alternate: text, tag, text, …, text.
   for (std::size_t i = 1; i + 1 < parts_.size(); i += 2) {
-    if (parts_[i].kind == Kind::kValue) continue;
+    if (parts_[i].kind != Kind::kOpen && parts_[i].kind != Kind::kClose) continue;
     std::string& before = parts_[i - 1].text;
     std::string& after = parts_[i + 1].text;
     const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 = 0
@@ -113,7 +119,7 @@ void TextTemplate::Check(const TemplateValues& known, base::Problems& problems) 
       for (const auto& [name, unused] : known.scalars) names.push_back(name);
       if (table) names.insert(names.end(), table->columns.begin(), table->columns.end());
     }
-    if (part.kind == Kind::kText || IndexOf(names, part.text) < names.size()) continue;
+    if (part.is_text() || IndexOf(names, part.text) < names.size()) continue;
     problems.Add("", Place(part) + "the placeholder \"" + part.text + "\" is not known" +
                          base::DidYouMean(part.text, names));
   }
@@ -122,7 +128,7 @@ void TextTemplate::Check(const TemplateValues& known, base::Problems& problems) 
 std::set<std::string> TextTemplate::Names() const {
   std::set<std::string> names;
   for (const Part& part : parts_) {
-    if (part.kind != Kind::kText) names.insert(part.text);
+    if (!part.is_text()) names.insert(part.text);
   }
   return names;
 }
@@ -131,7 +137,7 @@ std::string TextTemplate::Fill(const TemplateValues& values) const {
   std::string text;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    if (part.kind == Kind::kText) text += part.text;
+    if (part.is_text()) text += part.text;
     if (part.kind == Kind::kValue) text += values.scalars.at(part.text);
     if (part.kind == Kind::kOpen) {
       const std::size_t open = i;
@@ -150,8 +156,8 @@ std::string TextTemplate::FillRows(std::size_t open, std::size_t close,
   for (const std::vector<std::string>& row : table.rows) {
     for (std::size_t p = open + 1; p < close; ++p) {
       const Part& part = parts_[p];
-      const std::size_t column = part.kind == Kind::kText ? 0 : IndexOf(table.columns, part.text);
-      if (part.kind == Kind::kText) {
+      const std::size_t column = part.is_text() ? 0 : IndexOf(table.columns, part.text);
+      if (part.is_text()) {
         text += part.text;
       } else {
         text += column < row.size() ? row[column] : values.scalars.at(part.text);

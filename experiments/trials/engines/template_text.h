@@ -3,6 +3,7 @@
 //   {{ sliding_friction }}          a value
 //   {{# grains }} … {{/ grains }}   its text once for each row of a table; the table's columns are
 //                                   placeholders inside it. A tag alone on its line takes no line.
+//   {{ "{{" }}                      two braces of the text's own
 #pragma once
 
 #include <map>
@@ -41,11 +42,12 @@ class TextTemplate {
   std::string Fill(const TemplateValues& values) const;
 
  private:
-  enum class Kind { kText, kValue, kOpen, kClose };
+  enum class Kind { kText, kBraces, kValue, kOpen, kClose };
   struct Part {
     Kind kind = Kind::kText;
     std::string text;  // or the name
     int line = 0;      // of a tag, from 1
+    bool is_text() const { return kind == Kind::kText || kind == Kind::kBraces; }
   };
   void AddTag(std::string_view inner, int line);
   void DropLinesOfLoneTags();

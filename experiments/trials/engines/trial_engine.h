@@ -14,6 +14,10 @@
 
 namespace talus::trials {
 
+// In a campaign's folder: locked while a process works on the campaign. The trials are in
+// trials/ID.
+inline constexpr const char* kCampaignLock = "campaign.lock";
+
 struct TrialOutput {
   imaging::GrayImage profile;  // ANHP in the case's frame; empty without one
   std::int64_t num_steps = 0;  // 0 when not known

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
@@ -17,6 +18,7 @@
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/mass_study.h"
+#include "imaging/photos/photo_set.h"
 
 namespace talus::trials {
 namespace {
@@ -52,24 +54,50 @@ std::optional<NamedMass> MassInName(const std::string& name) {
 std::vector<fs::path> FoldersIn(const fs::path& path) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.is_directory()) folders.push_back(entry.path());
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (entry.is_directory() && !is_hidden) folders.push_back(entry.path());
   }
   std::sort(folders.begin(), folders.end());
   return folders;
 }
 
-// DIR/MASS, DIR/MASS_DAY, DIR/MASS/DAY and DIR/DAY/MASS are all understood.
-void FindFolders(const fs::path& path, MassFolder known, std::vector<MassFolder>& found) {
+std::string NameOfFolder(const fs::path& path) {
   const fs::path clean = fs::absolute(path).lexically_normal();
-  const std::string name = (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+  return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+}
+
+// Whether a folder in that of a mass is a heap's: it has the photographs of one, and its name
+// speaks of no mass or day.
+bool IsHeapFolder(const fs::path& path) {
+  static const std::regex kDay("day", std::regex::icase);
+  const std::string name = NameOfFolder(path);
+  if (MassInName(name) || std::regex_search(name, kDay) || !FoldersIn(path).empty()) return false;
+  return !imaging::ImagesIn(path).empty() && imaging::FindPhotos(path, "").runs.size() == 1;
+}
+
+// Whether the photographs of one mass and day begin here, in a folder a heap or without any.
+bool HoldsPhotos(const fs::path& path, const std::vector<fs::path>& inner,
+                 const std::string& pattern) {
+  if (inner.empty()) return true;
+  if (!pattern.empty() && pattern.find('/') == std::string::npos) return false;
+  return imaging::ImagesIn(path).empty() && std::ranges::all_of(inner, IsHeapFolder);
+}
+
+// DIR/MASS, DIR/MASS_DAY, DIR/MASS/DAY and DIR/DAY/MASS are all understood, each with a folder a
+// heap in it or without.
+void FindFolders(const fs::path& path, const std::string& pattern, MassFolder known,
+                 std::vector<MassFolder>& found) {
+  const std::string name = NameOfFolder(path);
   const std::optional<NamedMass> named = MassInName(name);
   if (named) known.mass = named->mass;
   const std::string day = named ? named->rest : known.path.empty() ? "" : name;
   if (!day.empty()) known.day = day;
   known.path = path;
   const std::vector<fs::path> inner = FoldersIn(path);
-  for (const fs::path& folder : inner) FindFolders(folder, known, found);
-  if (!inner.empty()) return;
+  if (!(known.mass > 0) || !HoldsPhotos(path, inner, pattern)) {
+    for (const fs::path& folder : inner) FindFolders(folder, pattern, known, found);
+    if (!inner.empty()) return;
+  }
   if (!(known.mass > 0)) {
     throw base::ConfigError(path.string() +
                             ": its name tells no mass; name the folders by mass and day, such as "
@@ -79,7 +107,21 @@ void FindFolders(const fs::path& path, MassFolder known, std::vector<MassFolder>
   found.push_back(known);
 }
 
-std::vector<MassFolder> FindFolders(const std::vector<fs::path>& inputs) {
+// Its heaps would count twice.
+void RequireOnce(const std::vector<MassFolder>& folders) {
+  std::map<fs::path, fs::path> named;
+  for (const MassFolder& folder : folders) {
+    const auto [other, is_new] = named.emplace(fs::canonical(folder.path), folder.path);
+    if (is_new) continue;
+    throw base::ConfigError(
+        folder.path.string() + ": is named twice" +
+        (other->second == folder.path ? "" : ", also as " + other->second.string()) +
+        "; name each folder once");
+  }
+}
+
+std::vector<MassFolder> FindFolders(const std::vector<fs::path>& inputs,
+                                    const std::string& pattern) {
   std::vector<MassFolder> folders;
   for (const fs::path& input : inputs) {
     if (!fs::is_directory(input)) {
@@ -87,8 +129,9 @@ std::vector<MassFolder> FindFolders(const std::vector<fs::path>& inputs) {
                               ": is no folder; --choose-mass takes one folder of photographs for "
                               "each mass and day, such as 1.5g_day1");
     }
-    FindFolders(input, {}, folders);
+    FindFolders(input, pattern, {}, folders);
   }
+  RequireOnce(folders);
   return folders;
 }
 
@@ -174,7 +217,7 @@ nlohmann::ordered_json StudyJson(const imaging::MassStudy& study) {
 
 void MeasureMasses(const MeasureRequest& request, std::ostream& print) {
   std::vector<imaging::MassRun> runs;
-  for (const MassFolder& folder : FindFolders(request.inputs)) {
+  for (const MassFolder& folder : FindFolders(request.inputs, request.experiment.pattern)) {
     std::ranges::copy(MeasureFolder(folder, request.experiment, print), std::back_inserter(runs));
   }
   const imaging::MassStudy study = imaging::StudyMass(runs);

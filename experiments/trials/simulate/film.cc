@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -24,6 +25,14 @@ constexpr double kMostHeight = 4.0 / 3;           // of a frame, in its widths
 constexpr double kLength = 9.6;                   // of the whole film [s]
 constexpr std::size_t kMostSpheres = 20'000'000;  // kept until the film is drawn: 640 MB
 constexpr imaging::Color kTube{120, 150, 175};
+
+// A comment before the end of the file: a film may be written over, no other picture.
+constexpr std::string_view kFilmMark("\x21\xfe\x0atalus film\x00", 14);
+
+bool IsOwnGif(const std::filesystem::path& file) {
+  const std::string tail = base::ReadTail(file, kFilmMark.size() + 1);
+  return tail.starts_with(kFilmMark) && tail.ends_with('\x3b');
+}
 
 // Where a point of the scene is in the picture of a camera in front.
 imaging::CanvasPoint At(const imaging::Camera& camera, const base::Vec3& p) {
@@ -146,7 +155,9 @@ void Film::Write() const {
   }
   if (IsGifName(out_)) {
     const double frame_time = kLength / static_cast<double>(size_.most_frames);
-    base::WriteFileAtomically(out_, imaging::EncodeGif(frames, frame_time));
+    std::string gif = imaging::EncodeGif(frames, frame_time);
+    gif.insert(gif.size() - 1, kFilmMark);
+    base::WriteFileAtomically(out_, gif);
     return;
   }
   base::RemoveFormerFiles(out_, "0");  // a longer film's frames, "0001.png"
@@ -166,6 +177,11 @@ void ClaimFilm(const std::filesystem::path& out) {
   }
   if (std::filesystem::is_directory(out)) {
     throw base::ConfigError("--film " + out.string() + ": is a folder; name a file");
+  }
+  if (std::filesystem::exists(std::filesystem::symlink_status(out)) && !IsOwnGif(out)) {
+    throw base::ConfigError("--film " + out.string() +
+                            ": is a file that `talus simulate --film` has not written; name "
+                            "another");
   }
 }
 

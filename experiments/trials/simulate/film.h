@@ -52,8 +52,8 @@ class Film {
 };
 
 // Makes what a film is to be written into, before anything is simulated. Throws ConfigError for a
-// film that needs another program, where there is no place for the file, and for a folder that
-// holds anything but an earlier film.
+// film that needs another program, where there is no place for the file, and for a file or a folder
+// that holds anything but an earlier film.
 void ClaimFilm(const std::filesystem::path& out);
 
 }  // namespace talus::trials

@@ -1,8 +1,6 @@
 #include "experiments/trials/simulate/run_folder.h"
 
-#include <fcntl.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,12 +13,12 @@
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
-#include "base/files/file_lock.h"
 #include "base/files/output_folder.h"
 #include "base/interrupt.h"
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
 #include "base/version.h"
+#include "experiments/trials/simulate/run_lock.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::trials {
@@ -53,29 +51,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   engine::RunTiming earlier_;
-};
-
-// Held while this process simulates in the folder; it goes with the process, however that ends.
-class RunLock {
- public:
-  explicit RunLock(const fs::path& folder)
-      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    constexpr std::chrono::milliseconds kPatience{2000};  // of one that is just being killed
-    constexpr std::chrono::milliseconds kPause{20};
-    if (folder_ < 0) return;  // reading and writing say why
-    if (base::LockWithin(folder_, kPatience, kPause) != base::LockEnd::kHeld) return;
-    ::close(folder_);
-    throw base::Error(folder.string() +
-                      ": another process simulates there; name another --out, or wait");
-  }
-  RunLock(const RunLock&) = delete;
-  RunLock& operator=(const RunLock&) = delete;
-  ~RunLock() {
-    if (folder_ >= 0) ::close(folder_);
-  }
-
- private:
-  int folder_;
 };
 
 std::optional<nlohmann::json> ResultIn(const fs::path& folder) {

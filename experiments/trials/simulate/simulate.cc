@@ -81,7 +81,8 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
 void SimulateCommand(base::JsonFile input, const SimulateOptions& options) {
   RefuseFilm(input, options);
   const auto& [folder, fresh, quiet] = options.run;
-  SimulateCommandCase(LoadCommandCase(input), {.folder = folder, .fresh = fresh, .quiet = quiet});
+  SimulateCommandCase(LoadCommandCase(input),
+                      {.folder = folder, .fresh = fresh, .quiet = quiet, .source = input.path});
 }
 
 constexpr InputKind kKinds[] = {

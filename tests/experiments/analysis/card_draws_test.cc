@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files/file.h"
 #include "experiments/analysis/card/card.h"
 #include "experiments/analysis/card/card_deck.h"
 #include "experiments/analysis/card/card_walls.h"
+#include "experiments/rigs/case/case_text.h"
 #include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/scratch_folder.h"
 
 namespace talus::analysis {
 namespace card_draws_test {
@@ -47,6 +50,21 @@ TEST_F(CardDrawsTest, AreFilesInEveryFormatWithTheirSetsAndWeights) {
     ++files;
   }
   EXPECT_EQ(files, 5 * 7 + 2);  // draws.csv, and whose folder it is
+}
+
+// A case as it is was headed as a calibrated set.
+TEST(DeckCard, OfACaseDoesNotCallItCalibrated) {
+  const ScratchFolder scratch;
+  rigs::Case rig_case;
+  rig_case.powder.mass = 1e-3;
+  rig_case.powder.sizes.kind = engine::SizeKind::kMono;
+  rig_case.powder.sizes.diameter = 1e-3;
+  base::WriteFileAtomically(scratch.path() / "case.json", rigs::CaseText(rig_case));
+  const Card card = ReadCard(scratch.path() / "case.json");
+  EXPECT_THAT(CardText(card, CardFormat::kLammps),
+              HasSubstr("case.json, a case of talus as it is"));
+  EXPECT_THAT(CardText(CardOf(rig_case), CardFormat::kLammps),
+              HasSubstr(", calibrated with talus"));
 }
 
 // LAMMPS' conversions of our conventions were made a second time of values that its deck had taken.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,8 @@
 #include "experiments/analysis/report/data/report_data.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/page/summary.h"
+#include "experiments/analysis/report/write_report.h"
+#include "tests/experiments/scratch_folder.h"
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::analysis {
@@ -138,6 +141,19 @@ TEST(NextSteps, ANuisanceThatLeavesTheOthersAsTheyAreIsNotToBeMeasured) {
   EXPECT_TRUE(is_offered());
   evidence.answer->parameters[0].nuisance.emplace();
   EXPECT_FALSE(is_offered());
+}
+
+// A sheet with the former answer stood beside a page that had none.
+TEST(WriteReport, TheSheetOfASearchThatGoesOnIsGone) {
+  const ScratchFolder scratch;
+  const std::filesystem::path sheet = scratch.path() / "report/summary.html";
+  ReportData data = MakeReportData(test::MakeSyntheticCampaign());
+  ASSERT_TRUE(data.evidence.answer.has_value());
+  WriteReport(data, scratch.path() / "report");
+  EXPECT_TRUE(std::filesystem::exists(sheet));
+  data.evidence.answer.reset();
+  WriteReport(data, scratch.path() / "report");
+  EXPECT_FALSE(std::filesystem::exists(sheet));
 }
 
 }  // namespace next_steps_test

@@ -82,6 +82,25 @@ TEST_F(PredictTest, TellsTheParametersFromTheScatterOfARun) {
               testing::StartsWith("draw,weight,sliding_friction,rolling_friction,tapped_density"));
 }
 
+// The second took the first's folder, and its trials with it.
+TEST_F(PredictTest, AnotherCaseOfTheSameFileNameIsRefused) {
+  const auto set = [](const fs::path& file) {
+    return PredictOptions{.file = file,
+                          .num_seeds = 1,
+                          .set = {{"sliding_friction", "0.4"}, {"rolling_friction", "0.2"}}};
+  };
+  const fs::path first = Taps();
+  Run(set(first));
+  fs::create_directories(scratch_.path() / "elsewhere");
+  fs::copy(first, scratch_.path() / "elsewhere/taps.json");
+  Run(set(scratch_.path() / "elsewhere/taps.json"));  // the same case
+  Taps(R"(, "gravity": 9.8)");                        // changed, in another file
+  EXPECT_THAT(ErrorOf(set(first)), HasSubstr("holds the prediction of another case"));
+  fs::rename(first, scratch_.path() / "täps.json");
+  Run(set(scratch_.path() / "täps.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "predict/täps-set/prediction.json"));
+}
+
 // Coarse grains add 40 kg/m³ for each 1 of the scale factor, ten times the scatter of a run.
 TEST_F(PredictTest, SeveralScaleFactorsTellTheOneThatTheAnswerIsFor) {
   const campaign::FakeEngineOptions shifted{.density_by_scale = 40};

@@ -75,6 +75,14 @@ TEST_F(SearchReport, ReadsWhatIsSearchedAndEachEvaluationOnce) {
   EXPECT_EQ(search.evaluations[2].value, 1.5);
 }
 
+// `evaluations` was lowered, and the page counted and showed all that the log has.
+TEST_F(SearchReport, EvaluationsThatTheResultIsNotMadeOfAreLeftOut) {
+  std::string result = kResult;
+  result.insert(1, R"("evaluations": 1, )");
+  Write("result.json", base::WithChecksum(result + "\n"));
+  EXPECT_EQ(Read().evaluations.size(), 1u);
+}
+
 TEST_F(SearchReport, ShowsASearchThatHasNotEnded) {
   const std::string page = SearchPage(Read());
   EXPECT_THAT(page, HasSubstr("3 of at most 4 evaluations, 1 failed"));

@@ -138,6 +138,28 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
 }
 
+// The former answer stood beside a report that had none.
+TEST_F(GoingOnTest, AResultIsGoneWhileTheSearchGoesOn) {
+  const fs::path folder = Finished(kSmall);
+  const auto has = [&](const char* name) { return fs::exists(folder / name); };
+  EXPECT_TRUE(has("result.json") && has("posterior.csv"));
+  {
+    const base::InterruptGuard interrupt;
+    Console console(folder / "campaign.log", Console::Output::kQuiet);
+    OpenedCampaign opened = OpenCampaign(folder, {.add_simulations = 3}, console);
+    CampaignParts parts{.runner = MakeDrawnRunner(opened.spec, opened.folder.root),
+                        .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
+                      std::move(parts), console);
+    std::raise(SIGINT);
+    EXPECT_EQ(campaign.Run(interrupt), CampaignEnd::kInterrupted);
+  }
+  EXPECT_EQ(Progress(folder).result_json, "");
+  EXPECT_FALSE(has("result.json") || has("posterior.csv"));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_TRUE(has("result.json") && has("posterior.csv"));
+}
+
 // The next resume read the first one again, and undid what the other had changed.
 TEST_F(GoingOnTest, AnotherSpecThatIsNamedOnceIsReadFromThenOn) {
   const fs::path folder = Begin(kSmall);

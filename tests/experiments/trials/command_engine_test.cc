@@ -199,7 +199,8 @@ TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
   Deck("run.sh", "{{ sliding_friction }} {{ sliding_frction }}\n");
   Deck("other", "\n{{# grain }}{{/ grain }}\n");
   options_.command = {"talus-no-such-program", "{{ sed }}"};
-  const std::string errors = CheckErrors({"sliding_friction", "rolling_friction"});
+  const std::string errors =
+      CheckErrors({Searched("sliding_friction"), Searched("rolling_friction")});
   EXPECT_THAT(errors, HasSubstr("run.sh:1: the placeholder \"sliding_frction\" is not known; did "
                                 "you mean \"sliding_friction\"?"));
   EXPECT_THAT(errors, HasSubstr("other:2: the placeholder \"grain\" is not known; did you mean "
@@ -210,7 +211,7 @@ TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
   EXPECT_THAT(errors, HasSubstr("\"talus-no-such-program\" is not found"));
   EXPECT_FALSE(fs::exists(root_ / "trial"));
   options_.templates = root_ / "absent";
-  EXPECT_THAT(CheckErrors(), HasSubstr("absent: cannot be read"));
+  EXPECT_THAT(CheckErrors(), HasSubstr("absent: is no folder; name that of"));
   options_.templates = root_ / "deck";
   Deck("case.json", "{}");
   EXPECT_THAT(CheckErrors(), HasSubstr("may not have the name of a trial's own file"));
@@ -222,6 +223,11 @@ TEST_F(CommandEngineTest, OldResultsAreNoResults) {
   Deck("heap.csv", "x,y,z,r\n0,0,1e-3,1e-3\n");
   EXPECT_THAT(CheckErrors(), HasSubstr("heap.csv: fits \"heap.*\", so that it would be taken"));
   fs::rename(root_ / "deck/heap.csv", root_ / "deck/old.csv");
+  for (const char* name : {"scalars.csv", "scalars.json"}) {
+    Deck(name, "");
+    EXPECT_THAT(CheckErrors(), HasSubstr("would be taken for every trial's numbers")) << name;
+    fs::remove(root_ / "deck" / name);
+  }
   Deck("run.sh", "cp -p old.csv heap.csv; touch -d 2001-01-01 heap.csv\n");
   EXPECT_EQ(CheckErrors(), "");
   EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\" that is not older than the trial"));
@@ -306,6 +312,14 @@ TEST_F(CommandEngineTest, LastResultInNaturalOrderCounts) {
   EXPECT_TRUE(NaturalLess("heap", "heap1"));
 }
 
+// LIGGGHTS makes no folder for its dumps, and fails.
+TEST_F(CommandEngineTest, EmptyFoldersOfTheTemplatesAreCopied) {
+  fs::create_directories(root_ / "deck/post/restart");
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >post/restart/heap.csv\n");
+  options_.result = "post/restart/heap.csv";
+  Run();
+}
+
 TEST_F(CommandEngineTest, ResultIsTurnedAndMovedOntoThePlate) {
   options_.up = UpAxis::kY;
   options_.plate_center = {1, 2, 3};
@@ -338,7 +352,7 @@ TEST_F(CommandEngineTest, StatedPairWithoutItsPlaceholderIsRefused) {
   rigs::Case rig_case = SmallCase();
   rigs::PairWith(rig_case.pairs, rigs::kFloor).sliding_friction = 0.25;
   base::Problems problems;
-  CheckCommand(options_, {.rig_case = rig_case, .calibrated = {}, .elsewhere = true}, problems);
+  CheckCommand(options_, {.rig_case = rig_case, .searched = {}, .elsewhere = true}, problems);
   EXPECT_THAT(problems.Text(), HasSubstr("{{ plate_pair_sliding_friction }}"));
 }
 

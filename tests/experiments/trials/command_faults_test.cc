@@ -1,6 +1,8 @@
 // What another engine's command leaves and ought not to, and a trial that is run somewhere else.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include <fstream>
 
@@ -9,6 +11,7 @@
 #include "base/text/number_text.h"
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/command_scalars.h"
+#include "experiments/trials/simulate/run_lock.h"
 #include "tests/experiments/command_fixture.h"
 
 namespace talus::trials {
@@ -51,6 +54,67 @@ TEST_F(CommandFaultsTest, WhatAnInterruptedAttemptHasLeftIsGoneAtTheNext) {
   for (const char* name : {"post", "log.lammps"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
 }
 
+// All of the folder went, the user's input among it.
+TEST_F(CommandFaultsTest, AnotherCaseInTheFolderReplacesWhatTalusHasWrittenAlone) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  Run();
+  std::ofstream(root_ / "trial/notes.txt") << "mine";
+  fs::create_directories(root_ / "trial/photos");
+  rigs::Case other = SmallCase();
+  other.seed = 7;
+  const auto simulate = [&](const fs::path& source) {
+    SimulateCommandCase(
+        {.heap = other, .engine = options_},
+        {.folder = root_ / "trial", .fresh = true, .quiet = true, .source = source});
+  };
+  const std::string before = Text("trial/case.json");
+  EXPECT_THAT(FailureOf([&] { simulate(root_ / "trial/case.json"); }),
+              HasSubstr("lies in the folder of the run"));
+  EXPECT_EQ(Text("trial/case.json"), before);
+  options_.result = "heap.csv";  // so that heap.vtp is not a former result by its name
+  const auto spheres = fs::last_write_time(root_ / "trial/heap.vtp");
+  simulate(root_ / "new.json");
+  EXPECT_NE(Text("trial/case.json"), before);
+  EXPECT_NE(fs::last_write_time(root_ / "trial/heap.vtp"), spheres);
+  EXPECT_EQ(Text("trial/notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(root_ / "trial/photos"));
+}
+
+TEST_F(CommandFaultsTest, AFileIsNotReplacedByTheFolderOfARun) {
+  Deck("run.sh", "true\n");
+  std::ofstream(root_ / "trial") << "";
+  EXPECT_THAT(FailureOf(), HasSubstr("is a file; name a folder with --out"));
+  fs::remove(root_ / "trial");
+  fs::create_symlink(root_ / "absent", root_ / "trial");
+  EXPECT_THAT(FailureOf(), HasSubstr("is a link that leads nowhere"));
+  EXPECT_TRUE(fs::is_symlink(root_ / "trial"));
+}
+
+// The second killed the first's command, and a campaign's too.
+TEST_F(CommandFaultsTest, AFolderInWhichAnotherProcessSimulatesIsLeftToIt) {
+  Deck("run.sh", "touch ../../begun; printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  const fs::path folder = root_ / "trials/0001";
+  const auto simulate = [&] {
+    SimulateCommandCase({.heap = SmallCase(), .engine = options_},
+                        {.folder = folder, .quiet = true});
+  };
+  fs::create_directories(folder);
+  {
+    const RunLock lock(folder);
+    EXPECT_THAT(FailureOf(simulate), HasSubstr("another process simulates there"));
+  }
+  std::ofstream(root_ / kCampaignLock) << "";
+  {
+    const int file = ::open((root_ / kCampaignLock).c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(::flock(file, LOCK_EX | LOCK_NB), 0);
+    EXPECT_THAT(FailureOf(simulate), HasSubstr("another process works on the campaign"));
+    ::close(file);
+  }
+  EXPECT_FALSE(fs::exists(root_ / "begun"));
+  simulate();
+  EXPECT_TRUE(fs::exists(root_ / "begun"));
+}
+
 // Such a trial succeeded, and its parameters were taken for those of the spec's powder.
 TEST_F(CommandFaultsTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
   const auto output_of = [&](double radius, int count) {
@@ -70,6 +134,39 @@ TEST_F(CommandFaultsTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
   EXPECT_THAT(output_of(0.5e-3, 100), HasSubstr("does the deck take {{ num_grains }}"));
   EXPECT_THAT(FailureOf([&] { output_of(0.5e-4, 3); }),
               HasSubstr("1/10 of that; is engine.length_unit right"));
+}
+
+// A code's own "no value" was taken for one.
+TEST_F(CommandFaultsTest, ANumberThatCannotBeFailsTheTrial) {
+  const auto fault_of = [&](const std::string& number) {
+    std::ofstream(root_ / "scalars.json") << "{" << number << "}";
+    return FailureOf([&] { ReadScalars(root_); });
+  };
+  EXPECT_THAT(fault_of(R"("angle_deg": -999)"),
+              HasSubstr("\"angle_deg\" -999, which cannot be below -90; write null for no value"));
+  EXPECT_THAT(fault_of(R"("angle_deg": 1e300)"), HasSubstr("which cannot be above 90"));
+  EXPECT_THAT(fault_of(R"("packing_fraction": 1.01)"), HasSubstr("which cannot be above 1"));
+  EXPECT_EQ(fault_of(R"("packing_fraction": 1, "angle_deg": 90)"), "");
+  EXPECT_EQ(fault_of(R"("cohesion_pa": -1e9, "their own": 1e300)"), "");
+}
+
+// What follows from a parameter is as good as itself; nothing was asked of a powder's bulk.
+TEST_F(CommandFaultsTest, ASearchedParameterReachesTheDeckByWhateverFollowsFromIt) {
+  Deck("run.sh",
+       "echo {{ powder_pair_sliding_friction }} {{ time_step }} {{ plate_restitution }}\n");
+  EXPECT_EQ(CheckErrors({Searched("sliding_friction")}), "");
+  EXPECT_THAT(CheckErrors({Searched("youngs_modulus")}), HasSubstr("{{ youngs_modulus }}"));
+  EXPECT_THAT(CheckErrors({Searched("restitution")}), HasSubstr("{{ restitution }}, nor another"));
+  SearchedParameter mass{.name = "mass", .low = SmallCase(), .high = SmallCase()};
+  mass.high.powder.mass *= 2;
+  SearchedParameter size{.name = "particle_size", .low = SmallCase(), .high = SmallCase()};
+  size.high.powder.sizes.diameter = 2 * *size.low.powder.sizes.diameter;
+  EXPECT_THAT(CheckErrors({mass}), HasSubstr("so that searching mass would change nothing"));
+  EXPECT_THAT(CheckErrors({size}), HasSubstr("so that searching particle_size would change"));
+  Deck("run.sh", "echo {{ num_grains }}\n");
+  EXPECT_EQ(CheckErrors({mass, size}), "");
+  Deck("run.sh", "{{# grains }}{{ x }}{{/ grains }}\n");
+  EXPECT_EQ(CheckErrors({mass, size}), "");
 }
 
 // The first won, whatever the second said.

@@ -34,6 +34,15 @@ TEST(TextTemplate, ValuesReplaceTheirPlaceholders) {
   EXPECT_EQ(Fill(""), "");
 }
 
+// A Python deck's f"{{x}}" was refused, and nothing said how to write it.
+TEST(TextTemplate, BracesOfTheFilesOwnAreQuoted) {
+  EXPECT_EQ(Fill("f'{{ \"{{\" }}a}} {{ seed }}'\n"), "f'{{a}} 7'\n");
+  EXPECT_EQ(Fill("{{# grains }}{{\"{{\"}}{{ x }}{{/ grains }}"), "{{1{{3");
+  EXPECT_EQ(ErrorOf("{{ \"{{\" }}"), "");
+  EXPECT_THAT(TextTemplate("{{ \"{{\" }}", "deck").Names(), ElementsAre());
+  EXPECT_THAT(ErrorOf("{{ a.b }}"), HasSubstr("are written {{ \"{{\" }}"));
+}
+
 TEST(TextTemplate, SectionIsRepeatedForEachRow) {
   EXPECT_EQ(Fill("a\n{{# grains }}\n{{ x }} {{ y }} s{{ seed }}\n{{/ grains }}\nb\n"),
             "a\n1 2 s7\n3 4 s7\nb\n");
