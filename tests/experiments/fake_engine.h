@@ -76,15 +76,16 @@ class FakeEngine : public trials::TrialEngine {
     }
     if (options_.disk_full) script += "echo heap.png: No space left on device >&2\nexit 1\n";
     if (options_.vanish) script += "rm -r \"$PWD\"\n";
-    if (!script.empty())
-      std::ofstream(folder / "run.sh") << script << "exec mv drawn.png profile.png\n";
+    std::filesystem::remove(folder / kScript);  // of a session that was killed
+    if (script.empty()) return;
+    std::ofstream(folder / kScript) << script << "exec mv drawn.png profile.png\n";
   }
   bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override {
     return trials::HoldsKey(folder, "case.json", rigs::CaseText(rig_case));
   }
   std::vector<std::string> Command(const std::filesystem::path& folder) override {
     if (options_.no_command) return {"talus-no-such-program"};
-    if (std::filesystem::exists(folder / "run.sh")) return {"sh", "run.sh"};
+    if (std::filesystem::exists(folder / kScript)) return {"sh", kScript};
     return Shown();
   }
   bool IsComplete(const std::filesystem::path& folder) override {
@@ -140,6 +141,8 @@ class FakeEngine : public trials::TrialEngine {
   }
 
  private:
+  static constexpr const char* kScript = "run.sh";
+
   FakeEngineOptions options_;
 };
 
