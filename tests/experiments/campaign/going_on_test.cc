@@ -119,20 +119,23 @@ TEST_F(GoingOnTest, ABeginningThatWasKilledIsBegunAgain) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
 }
 
+// Ctrl-C comes before anything else.
+CampaignEnd ResumeInterrupted(const fs::path& folder, const ResumeOptions& options) {
+  const base::InterruptGuard interrupt;
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  OpenedCampaign opened = OpenCampaign(folder, options, console);
+  CampaignParts parts{.runner = MakeDrawnRunner(opened.spec, opened.folder.root),
+                      .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+  Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
+                    std::move(parts), console);
+  std::raise(SIGINT);
+  return campaign.Run(interrupt);
+}
+
 TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   const fs::path folder = Finished(kSmall);
   const journal::ProgressRecord before = Progress(folder);
-  {
-    const base::InterruptGuard interrupt;
-    Console console(folder / "campaign.log", Console::Output::kQuiet);
-    OpenedCampaign opened = OpenCampaign(folder, {}, console);
-    CampaignParts parts{.runner = MakeDrawnRunner(opened.spec, opened.folder.root),
-                        .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
-    Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
-                      std::move(parts), console);
-    std::raise(SIGINT);
-    EXPECT_EQ(campaign.Run(interrupt), CampaignEnd::kInterrupted);
-  }
+  EXPECT_EQ(ResumeInterrupted(folder, {}), CampaignEnd::kInterrupted);
   EXPECT_EQ(Progress(folder).state, "finished");
   EXPECT_EQ(Progress(folder).stop_reason, before.stop_reason);
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
@@ -143,17 +146,7 @@ TEST_F(GoingOnTest, AResultIsGoneWhileTheSearchGoesOn) {
   const fs::path folder = Finished(kSmall);
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   EXPECT_TRUE(has("result.json") && has("posterior.csv"));
-  {
-    const base::InterruptGuard interrupt;
-    Console console(folder / "campaign.log", Console::Output::kQuiet);
-    OpenedCampaign opened = OpenCampaign(folder, {.add_simulations = 3}, console);
-    CampaignParts parts{.runner = MakeDrawnRunner(opened.spec, opened.folder.root),
-                        .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
-    Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
-                      std::move(parts), console);
-    std::raise(SIGINT);
-    EXPECT_EQ(campaign.Run(interrupt), CampaignEnd::kInterrupted);
-  }
+  EXPECT_EQ(ResumeInterrupted(folder, {.add_simulations = 3}), CampaignEnd::kInterrupted);
   EXPECT_EQ(Progress(folder).result_json, "");
   EXPECT_FALSE(has("result.json") || has("posterior.csv"));
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
