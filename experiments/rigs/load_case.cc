@@ -48,12 +48,13 @@ void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems)
   if (share <= kMaxImpactShare) return;
   // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
   const double ratio = std::pow(share / kMaxImpactShare, 2.5);
-  problems.Add("filling.drop_height",
+  problems.Add(vessel.funnel ? "rig.height" : "filling.drop_height",
                "lets grains sink " + base::ShortNumber(share) +
                    " of their radius into each other or into a wall, above the " +
                    base::ShortNumber(kMaxImpactShare) + " that holds; raise youngs_modulus " +
-                   base::ShortNumber(ratio) +
-                   " times, lower drop_height or rate, or fill with kind dense");
+                   base::ShortNumber(ratio) + " times, " +
+                   (vessel.funnel ? "or lower the funnel or filling.rate"
+                                  : "lower drop_height or rate, or fill with kind dense"));
 }
 
 // A bed that falls comes down on its floor as its lowest grains do, or harder. From much higher

@@ -20,13 +20,19 @@ char SeparatorOf(const std::string& head) {
   return by_semicolons ? ';' : ',';
 }
 
-// A separator in quotes separates nothing, and two quotes in quotes are one.
+// A cell that begins with a quote ends with one: a separator in it separates nothing, and two
+// quotes in it are one (RFC 4180). Elsewhere a quote is a character, an inch say.
 std::vector<std::string> Cells(const std::string& line, char separator, const std::string& place) {
   std::vector<std::string> cells(1);
   bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (c == separator && !quoted) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const bool is_double = quoted && line.substr(i, 2) == "\"\"";
+    if (is_double) {
+      cells.back() += line[++i];
+    } else if (c == '"' && (quoted || base::Trimmed(cells.back(), " \t").empty())) {
+      quoted = !quoted;
+    } else if (c == separator && !quoted) {
       cells.emplace_back();
     } else {
       cells.back() += c;
@@ -34,7 +40,7 @@ std::vector<std::string> Cells(const std::string& line, char separator, const st
   }
   if (quoted) throw base::ConfigError(place + ": has a quote that is not closed in its line");
   for (std::string& cell : cells) {
-    cell = base::Trimmed(cell, " \t\r\"");
+    cell = base::Trimmed(cell, " \t\r");
     if (separator == ';') std::ranges::replace(cell, ',', '.');
   }
   return cells;

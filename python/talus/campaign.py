@@ -135,9 +135,12 @@ class Campaign:
 
     @property
     def result(self):
-        """result.json as a dictionary; None before the campaign has ended, and while it goes on."""
-        file = self.folder / "result.json"
-        return json.loads(file.read_text()) if file.exists() else None
+        """result.json as a dictionary; None before the campaign has ended, and from when it goes on until
+        it has ended again."""
+        try:
+            return json.loads((self.folder / "result.json").read_text())
+        except FileNotFoundError:
+            return None
 
     @property
     def warnings(self):

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/load_case.h"

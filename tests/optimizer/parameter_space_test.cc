@@ -98,6 +98,8 @@ TEST(CandidateTable, CellsThatBelongToNoColumnAreRefusedAndQuotedOnesAreOne) {
   using Rows = std::vector<std::vector<double>>;
   EXPECT_EQ(read("note,a,b\n\"run 7, \"\"0.9\"\"\",0.1,\"0.2\"\n"), (Rows{{0.1, 0.2}}));
   EXPECT_EQ(read("a,b,,\n0.1,0.2,,\n,,,\n"), (Rows{{0.1, 0.2}}));
+  EXPECT_EQ(read("a,b,sieve\n0.1,0.2,5\"\n"), (Rows{{0.1, 0.2}}));  // inches
+  EXPECT_EQ(read("\"a\",\"the \"\"b\"\"\",b\n0.1,0.3,0.2\n"), (Rows{{0.1, 0.2}}));
   EXPECT_THAT(ErrorIn([&] { read("a,b\n0,1,0,2\n"); }),
               HasSubstr("cells.csv:2: has 4 cells and the head 2; write decimals with a point"));
   EXPECT_THAT(ErrorIn([&] { read("a,b,a\n1,2,3\n"); }), HasSubstr("two columns \"a\""));

@@ -21,8 +21,14 @@ std::string SourceSeenFrom(const std::filesystem::path& campaign,
 }
 
 void RequireSameCase(const PredictionDesign& stored, const PredictionDesign& wanted,
-                     const std::filesystem::path& folder) {
-  if (stored.source.empty() || stored.source == wanted.source || stored.test == wanted.test) return;
+                     const std::filesystem::path& campaign, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  if (stored.source.empty() || stored.test == wanted.test) return;
+  // A file that is gone was moved, with the campaign or without.
+  const fs::path other = fs::absolute(campaign) / stored.source;
+  std::error_code absent;
+  if (!fs::exists(other, absent)) return;
+  if (fs::equivalent(other, fs::absolute(campaign) / wanted.source, absent)) return;
   throw base::ConfigError(folder.string() + ": holds the prediction of another case, " +
                           stored.source +
                           ", whose file has the same name; rename one of the files, or remove "

@@ -61,8 +61,9 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
 // one, which heavy tails give in to so that nothing is pulled.
 bool MayHold(const ResultParameter& p) {
   if (!p.prior) return false;
-  return std::abs(p.prior->offset) >= kPulled ||
-         p.prior->high - p.prior->low < kNarrow * (p.searched_high - p.searched_low);
+  const optimizer::Parameter range = p.Range();
+  const double width = range.ToUnit(p.prior->high) - range.ToUnit(p.prior->low);
+  return std::abs(p.prior->offset) >= kPulled || width < kNarrow;
 }
 
 // The parameter among those that the posterior has moved farthest, in the prior's standard

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
@@ -15,6 +16,7 @@ namespace talus::rigs {
 namespace {
 
 constexpr double kFront = 0.99;  // of the mass lies behind the front
+constexpr int kColumnFloor = 1;  // index of the wall
 
 class ColumnCollapseRig : public RememberingRig<NoMemory> {
  public:
@@ -30,7 +32,7 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
     running.filmed = true;
     running.begin = [this] { Open(); };
     // Until the gate is out of its way the column rests.
-    running.criterion = [this, rests = running.criterion] { return GateIsUp() && rests(); };
+    running.criterion = [this, rests = running.criterion] { return rests() && GateIsUp(); };
     running.cap = [this, longest = c.rules.heap.max_time] { return longest + OpeningTime(); };
     SetPhases({running}, TestTime(c, FilledHeight(c, vessel())));
   }
@@ -72,8 +74,13 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double length = rig_case().rig.column_collapse.length;
     const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
+    // Grains that ride on the gate are none of the heap.
+    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
+    const std::vector<bool> stands = ContactSets(grains, contacts).Reaching(kColumnFloor);
     double top = 0;
-    for (const engine::Particle& p : grains) top = std::max(top, p.position.z + p.radius);
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      if (stands[i]) top = std::max(top, grains[i].position.z + grains[i].radius);
+    }
     const double runout = front - length / 2;
     std::vector<Reading> all{{Observable::kRunout, runout},
                              {Observable::kHeight, top},
@@ -100,13 +107,8 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
     return velocity ? state().bed.height / *velocity : 0;
   }
 
-  bool GateIsUp() const {
-    const auto& velocity = rig_case().rig.column_collapse.gate_velocity;
-    if (!velocity) return true;
-    double top = 0;
-    for (const engine::Particle& p : view().particles) top = std::max(top, p.position.z + p.radius);
-    return *velocity * (simulation().time() - phase_start()) > top;
-  }
+  // The column only sinks from its first height on.
+  bool GateIsUp() const { return simulation().time() - phase_start() > OpeningTime(); }
 
   void Open() {
     const auto& velocity = rig_case().rig.column_collapse.gate_velocity;

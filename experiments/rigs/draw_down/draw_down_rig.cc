@@ -26,7 +26,7 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
     Phase discharging = Resting("discharging", c.rules.heap);
     discharging.criterion = [this, rests = discharging.criterion] {
-      return HasStopped(memory().flow, rig_case().rules.heap.hold_time) && rests();
+      return rests() && HasStopped(memory().flow, rig_case().rules.heap.hold_time);
     };
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };

@@ -37,6 +37,10 @@ double DropHeight(const Case& c, const Vessel& vessel) {
   return c.filling.drop_height.value_or(vessel.across / 2);
 }
 
+double FallHeight(const Case& c, const Vessel& vessel, const engine::Pour& pour) {
+  return DropHeight(c, vessel) + pour.slab() + vessel.region.base.z - vessel.Floor();
+}
+
 double MouthDiameter(const Case& c, const Vessel& vessel) {
   if (vessel.funnel) return vessel.funnel->outlet;
   // Not so narrow that grains come down in a file.
@@ -81,8 +85,7 @@ double BlowShare(const Case& c, double square_speed) {
 
 double ImpactShare(const Case& c, const Vessel& vessel) {
   const engine::Pour pour = MakePour(c, vessel);
-  const double above_floor = vessel.region.base.z - vessel.Floor();
-  const double fall = DropHeight(c, vessel) + pour.slab() + above_floor;
+  const double fall = FallHeight(c, vessel, pour);
   return BlowShare(c, std::pow(engine::StreamSpeed(pour.plan()), 2) + 2 * c.gravity * fall);
 }
 

@@ -21,6 +21,9 @@ engine::Pour MakePour(const Case& rig_case, const Vessel& vessel);
 // a half [m].
 double DropHeight(const Case& rig_case, const Vessel& vessel);
 
+// How far a grain of the stream falls at most, onto the floor of the empty vessel [m].
+double FallHeight(const Case& rig_case, const Vessel& vessel, const engine::Pour& pour);
+
 // What walls that have no height of their own must hold [m].
 double PouredHeight(const Case& rig_case, const Vessel& vessel);
 

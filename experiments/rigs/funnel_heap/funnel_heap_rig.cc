@@ -98,7 +98,8 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
     AddLanding(present, rig_case().rig.funnel_heap.plate_diameter / 2, on_plate);
     std::vector<engine::Particle> heap;
     for (std::size_t i = 0; i < present.size(); ++i) {
-      if (on_plate[i]) heap.push_back(present[i]);
+      const bool is_above = present[i].position.z > 0;  // others cling to the plate from below
+      if (on_plate[i] && is_above) heap.push_back(present[i]);
     }
     for (engine::Particle& p : heap) p.position.z -= HeapBase(rig_case());
     return heap;

@@ -55,7 +55,7 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
     Phase discharging = Resting(kDischarging, c.rules.heap);
     discharging.hold_time = c.rig.orifice_flow.arch_time;
     discharging.criterion = [this, rests = discharging.criterion] {
-      return HasStopped(memory().flow, rig_case().rules.heap.hold_time) && rests();
+      return rests() && HasStopped(memory().flow, rig_case().rules.heap.hold_time);
     };
     discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
     discharging.filmed = true;

@@ -71,7 +71,7 @@ void Rig::SetPhases(std::vector<Phase> phases, double test_time) {
   if (pour_) phases_.push_back(Pouring());
   phases_.push_back(Resting(kSettling, case_.rules.settling));
   if (pour_) {
-    phases_.back().criterion = [this] { return HasLanded() && AtRest(case_.rules.settling); };
+    phases_.back().criterion = [this] { return AtRest(case_.rules.settling) && HasLanded(); };
   }
   if (case_.filling.taps) {
     phases_.push_back(Tapping(*case_.filling.taps));
@@ -183,7 +183,7 @@ bool Rig::Held(const Phase& phase) {
 
 // What left the mouth last has come down: in flight it is too little to show.
 bool Rig::HasLanded() const {
-  const double fall = DropHeight(case_, vessel_) + pour_->slab();
+  const double fall = FallHeight(case_, vessel_, *pour_);
   return simulation_.time() - phase_start() >= std::sqrt(2 * fall / case_.gravity);
 }
 

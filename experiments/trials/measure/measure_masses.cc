@@ -67,9 +67,11 @@ std::string NameOfFolder(const fs::path& path) {
 }
 
 // Whether a folder in that of a mass is a heap's: it has the photographs of one, and its name
-// speaks of no mass or day.
+// speaks of no mass, day, weekday or date.
 bool IsHeapFolder(const fs::path& path) {
-  static const std::regex kDay("day", std::regex::icase);
+  static const std::regex kDay(
+      "day|[0-9]{8}|[0-9]+[-_. ](?:[0-9]+|[a-z]{3,9})[-_. ][0-9]+|^(?:mon|tue|wed|thu|fri|sat|sun)",
+      std::regex::icase);
   const std::string name = NameOfFolder(path);
   if (MassInName(name) || std::regex_search(name, kDay) || !FoldersIn(path).empty()) return false;
   return !imaging::ImagesIn(path).empty() && imaging::FindPhotos(path, "").runs.size() == 1;

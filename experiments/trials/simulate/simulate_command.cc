@@ -54,6 +54,7 @@ void RequireOwnFolder(const CommandCase& command_case, const CommandFolderOption
 void RequireNoLiveCampaign(const fs::path& folder) {
   std::error_code unreachable;  // which making it says
   const fs::path trials = fs::weakly_canonical(folder, unreachable).parent_path();
+  if (trials.filename() != "trials") return;
   if (!base::IsLocked(trials.parent_path() / kCampaignLock)) return;
   throw base::Error(folder.string() +
                     ": another process works on the campaign whose trial this is; name another "

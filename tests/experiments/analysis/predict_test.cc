@@ -93,10 +93,13 @@ TEST_F(PredictTest, AnotherCaseOfTheSameFileNameIsRefused) {
   Run(set(first));
   fs::create_directories(scratch_.path() / "elsewhere");
   fs::copy(first, scratch_.path() / "elsewhere/taps.json");
-  Run(set(scratch_.path() / "elsewhere/taps.json"));  // the same case
-  Taps(R"(, "gravity": 9.8)");                        // changed, in another file
-  EXPECT_THAT(ErrorOf(set(first)), HasSubstr("holds the prediction of another case"));
+  Run(set(scratch_.path() / "elsewhere/taps.json"));  // a copy is the same case
+  Taps(R"(, "gravity": 9.8)");                        // that is edited
+  Run(set(first));
+  EXPECT_THAT(ErrorOf(set(scratch_.path() / "elsewhere/taps.json")),
+              HasSubstr("holds the prediction of another case"));
   fs::rename(first, scratch_.path() / "täps.json");
+  Run(set(scratch_.path() / "elsewhere/taps.json"));  // the other is gone
   Run(set(scratch_.path() / "täps.json"));
   EXPECT_TRUE(fs::exists(folder_ / "predict/täps-set/prediction.json"));
 }

@@ -129,6 +129,15 @@ TEST(Misses, APriorIsSuspectWhereItIsPulledAtOrNarrow) {
   EXPECT_EQ(MissAlarms(answer)[0].parameter, "friction");
   answer.parameters[0].prior = ResultPrior{.low = 0.4, .high = 0.6, .offset = -0.3};
   EXPECT_EQ(MissAlarms(answer)[0].parameter, "friction");
+  // Two thirds of three decades, and a tenth of them.
+  answer.parameters = {{.name = "adhesion",
+                        .searched_low = 1e-3,
+                        .searched_high = 1,
+                        .scale = optimizer::Scale::kLog,
+                        .prior = ResultPrior{.low = 1e-3, .high = 0.1, .offset = -0.3}}};
+  EXPECT_FALSE(MissAlarms(answer)[0].parameter);
+  answer.parameters[0].prior = ResultPrior{.low = 0.5, .high = 1, .offset = -0.3};
+  EXPECT_EQ(MissAlarms(answer)[0].parameter, "adhesion");
 }
 
 // A small search confirms 2.7 noise floors. Law and plate are blamed where nothing speaks against

@@ -85,42 +85,6 @@ TEST(TappedDensity, TapsPackThePowderTowardsRandomClosePacking) {
   EXPECT_NEAR(Value(many, *after_many, "hausner_ratio"), tapped / poured, 1e-12);
 }
 
-Case Collapse(double mass) {
-  Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, mass);
-  c.rig.column_collapse = {.length = 0.012, .width = 0.005};
-  return c;
-}
-
-// Two-dimensional columns run out by ΔL/L = 1.2 a up to an aspect ratio a of about 2, and by
-// 1.9 a^(2/3) beyond [lube2005]; by a up to 3 [lajeunesse2005]. A channel five grains wide and
-// grains that resist rolling take part of it away: seen 0.84, 0.92 and 0.90 of Lube's.
-TEST(ColumnCollapse, RunoutGrowsWithTheAspectRatioAsPublished) {
-  double before = 0;
-  for (const double mass : {0.45e-3, 0.9e-3, 1.8e-3}) {
-    const Case c = Collapse(mass);
-    const auto rig = Ran(c);
-    const double aspect = Value(c, *rig, "aspect_ratio");
-    const double runout = Value(c, *rig, "runout_m") / 0.012;
-    const double published = aspect < 2 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3);
-    EXPECT_GT(runout, 0.7 * published);
-    EXPECT_LT(runout, 1.2 * published);
-    EXPECT_GT(runout, before);
-    before = runout;
-  }
-}
-
-// A column rests until its gate is out of its way: it has not run out before. By a slow gate it
-// runs out from below, and about as far.
-TEST(ColumnCollapse, ASlowGateIsWaitedFor) {
-  Case c = Collapse(0.45e-3);
-  const double at_once = Value(c, *Ran(c), "runout_m");
-  c.rig.column_collapse.gate_velocity = 0.05;
-  const auto rig = Ran(c);
-  EXPECT_NEAR(Value(c, *rig, "runout_m"), at_once, 0.3 * at_once);
-  const PhaseRecord& running = rig->RecordOf("running out");
-  EXPECT_GT((running.end_time - running.start_time) * 0.05, Value(c, *rig, "height_m"));
-}
-
 // A layer of grains that do not roll slides on its floor as a block: tan(angle) = μ, the pair's
 // harmonic mean of 1 and 0.2, 1/3. What keeps it at the walls is little, as these are smooth.
 TEST(TiltingBox, AFrictionalBlockSlidesAtItsAngleOfFriction) {
