@@ -20,15 +20,17 @@ std::string SourceSeenFrom(const std::filesystem::path& campaign,
   return place.lexically_proximate(fs::weakly_canonical(fs::absolute(campaign))).string();
 }
 
-void RequireSameCase(const PredictionDesign& stored, const PredictionDesign& wanted,
-                     const std::filesystem::path& campaign, const std::filesystem::path& folder) {
+std::string SourceToKeep(const PredictionDesign& stored, const PredictionDesign& wanted,
+                         const std::filesystem::path& campaign,
+                         const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  if (stored.source.empty() || stored.test == wanted.test) return;
+  if (stored.source.empty()) return wanted.source;
+  if (stored.test == wanted.test) return stored.source;  // not that of a copy
   // A file that is gone was moved, with the campaign or without.
   const fs::path other = fs::absolute(campaign) / stored.source;
   std::error_code absent;
-  if (!fs::exists(other, absent)) return;
-  if (fs::equivalent(other, fs::absolute(campaign) / wanted.source, absent)) return;
+  if (!fs::exists(other, absent)) return wanted.source;
+  if (fs::equivalent(other, fs::absolute(campaign) / wanted.source, absent)) return wanted.source;
   throw base::ConfigError(folder.string() + ": holds the prediction of another case, " +
                           stored.source +
                           ", whose file has the same name; rename one of the files, or remove "

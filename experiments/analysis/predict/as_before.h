@@ -15,10 +15,12 @@ namespace talus::analysis {
 std::string SourceSeenFrom(const std::filesystem::path& campaign,
                            const std::filesystem::path& file);
 
-// Throws ConfigError where `folder` holds the prediction of a case in another file, which is still
-// there: two cases of one file name would take turns in it, each with the other's trials gone.
-void RequireSameCase(const PredictionDesign& stored, const PredictionDesign& wanted,
-                     const std::filesystem::path& campaign, const std::filesystem::path& folder);
+// The file that a prediction made once more is of. Throws ConfigError where `folder` holds the
+// prediction of a case in another file, which is still there: two cases of one file name would take
+// turns in it, each with the other's trials gone.
+std::string SourceToKeep(const PredictionDesign& stored, const PredictionDesign& wanted,
+                         const std::filesystem::path& campaign,
+                         const std::filesystem::path& folder);
 
 // `options` with what an earlier call for this file had, where it has ended.
 // With draws enough for a surrogate.

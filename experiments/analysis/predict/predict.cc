@@ -155,10 +155,7 @@ class Predictor {
                             .stages = {},
                             .source = SourceSeenFrom(view_.folder.root, options_.file)};
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
-    if (stored) RequireSameCase(*stored, wanted, view_.folder.root, root_);
-    if (stored && stored->test == wanted.test && !stored->source.empty()) {
-      wanted.source = stored->source;  // not that of a copy
-    }
+    if (stored) wanted.source = SourceToKeep(*stored, wanted, view_.folder.root, root_);
     if (stored && options_.as_before) {
       wanted.last_trial = stored->last_trial;
       if (!stored->stages.empty() && stored->test == wanted.test) {

@@ -98,7 +98,7 @@ class Planner {
   const Reference& ReferenceOf(const journal::TrialRecord& trial) const {
     return references_[static_cast<std::size_t>(trial.experiment)];
   }
-  // Of the model that answers; null where it cannot be made yet.
+  // A test's part of the model that answers; null where it cannot be made yet.
   const optimizer::ExperimentModel* ModelOf(int experiment);
   // The strategy that chooses the trials.
   optimizer::Strategy& Chooser() { return proposer_ ? *proposer_ : *posterior_; }

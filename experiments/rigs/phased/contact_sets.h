@@ -15,9 +15,9 @@ class ContactSets {
   ContactSets(std::span<const engine::Particle> particles,
               std::span<const engine::ContactInfo> contacts);
 
-  // Of each particle: whether it touches the wall.
+  // For each particle, whether it touches the wall.
   std::vector<bool> Touching(int wall) const;
-  // Of each particle: whether a chain of contacts leads to the wall.
+  // For each particle, whether a chain of contacts leads to the wall.
   std::vector<bool> Reaching(int wall) const;
 
  private:
