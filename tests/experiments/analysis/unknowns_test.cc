@@ -96,7 +96,7 @@ TEST_F(UnknownsTest, WhatHasNotBeenSimulatedIsSaidAndNotDiscounted) {
   const JointView view = Run();
   const NextTable before = Rank(view, true);
   Move(view, {{"restitution", "0.6"}});
-  const NextCandidate& heap = Find(Rank(view, false), "again");
+  const NextCandidate heap = Find(Rank(view, false), "again");
   EXPECT_EQ(heap.learning->bits, Find(before, "again").learning->bits);
   EXPECT_THAT(heap.what, HasSubstr("what it owes to restitution is judged by 12 simulations"));
 }
