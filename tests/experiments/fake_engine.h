@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/joined.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/trials/engines/trial_engine.h"
@@ -80,7 +81,7 @@ class FakeEngine : public trials::TrialEngine {
     if (options_.vanish) script += "rm -r \"$PWD\"\n";
     std::filesystem::remove(folder / kScript);  // of a session that was killed
     if (script.empty()) return;
-    std::ofstream(folder / kScript) << script << "exec mv drawn.png profile.png\n";
+    std::ofstream(folder / kScript) << script << "exec " << base::Joined(Shown(), " ") << "\n";
   }
   bool IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) override {
     return trials::HoldsKey(folder, "case.json", rigs::CaseText(rig_case));

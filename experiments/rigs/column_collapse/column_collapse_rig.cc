@@ -28,11 +28,10 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
 
   ColumnCollapseRig(const Case& c, State state, engine::Simulation simulation)
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
-    Phase running = Resting("running out", c.rules.heap);
+    // Until the gate is out of its way the column rests.
+    Phase running = Resting("running out", c.rules.heap, [this] { return GateIsUp(); });
     running.filmed = true;
     running.begin = [this] { Open(); };
-    // Until the gate is out of its way the column rests.
-    running.criterion = [this, rests = running.criterion] { return rests() && GateIsUp(); };
     running.cap = [this, longest = c.rules.heap.max_time] { return longest + OpeningTime(); };
     SetPhases({running}, TestTime(c, FilledHeight(c, vessel())));
   }

@@ -24,10 +24,9 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
 
   DrawDownRig(const Case& c, State state, engine::Simulation simulation)
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
-    Phase discharging = Resting("discharging", c.rules.heap);
-    discharging.criterion = [this, rests = discharging.criterion] {
-      return rests() && HasStopped(memory().flow, rig_case().rules.heap.hold_time);
-    };
+    Phase discharging = Resting("discharging", c.rules.heap, [this] {
+      return HasStopped(memory().flow, rig_case().rules.heap.hold_time);
+    });
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };
     SetPhases({discharging}, TestTime(c, FilledHeight(c, vessel())));

@@ -8,7 +8,6 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
-#include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rig_entry.h"
@@ -92,15 +91,10 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   // what lies on the plate or is about to, the layer below the rim's top included
   std::vector<engine::Particle> Grains() const override {
-    const std::vector<engine::Particle> present = simulation().Particles();
-    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
-    std::vector<bool> on_plate = ContactSets(present, contacts).Reaching(kFunnelPlate);
-    AddLanding(present, rig_case().rig.funnel_heap.plate_diameter / 2, on_plate);
-    std::vector<engine::Particle> heap;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      const bool is_above = present[i].position.z > 0;  // others cling to the plate from below
-      if (on_plate[i] && is_above) heap.push_back(present[i]);
-    }
+    std::vector<engine::Particle> heap =
+        HeapOn(simulation(), kFunnelPlate, rig_case().rig.funnel_heap.plate_diameter / 2);
+    // Others cling to the plate from below.
+    std::erase_if(heap, [](const engine::Particle& p) { return !(p.position.z > 0); });
     for (engine::Particle& p : heap) p.position.z -= HeapBase(rig_case());
     return heap;
   }

@@ -151,14 +151,7 @@ double LiftedTubeRig::TubeEdge() const {
 }
 
 std::vector<Particle> GrainsOfHeap(const engine::Simulation& simulation) {
-  const std::vector<Particle> particles = simulation.Particles();
-  Connectivity connected = Connect(particles, simulation.Contacts());
-  AddLanding(particles, PlateRadius(simulation), connected.on_plate);
-  std::vector<Particle> heap;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (connected.on_plate[i]) heap.push_back(particles[i]);
-  }
-  return heap;
+  return HeapOn(simulation, kPlate, PlateRadius(simulation));
 }
 
 std::vector<Particle> LiftedTubeRig::Grains() const { return GrainsOfHeap(simulation()); }

@@ -52,11 +52,10 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
         leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
     const double test_time = TestTime(c, FilledHeight(c, vessel()));
-    Phase discharging = Resting(kDischarging, c.rules.heap);
+    Phase discharging = Resting(kDischarging, c.rules.heap, [this] {
+      return HasStopped(memory().flow, rig_case().rules.heap.hold_time);
+    });
     discharging.hold_time = c.rig.orifice_flow.arch_time;
-    discharging.criterion = [this, rests = discharging.criterion] {
-      return rests() && HasStopped(memory().flow, rig_case().rules.heap.hold_time);
-    };
     discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/rigs/phased/contact_sets.h"
+
 namespace talus::rigs {
 namespace {
 
@@ -39,6 +41,18 @@ void AddLanding(std::span<const Particle> particles, double plate_radius,
     }
     on_heap[i] = lands;
   }
+}
+
+std::vector<Particle> HeapOn(const engine::Simulation& simulation, int plate, double plate_radius) {
+  const std::vector<Particle> particles = simulation.Particles();
+  const std::vector<engine::ContactInfo> contacts = simulation.Contacts();
+  std::vector<bool> on_heap = ContactSets(particles, contacts).Reaching(plate);
+  AddLanding(particles, plate_radius, on_heap);
+  std::vector<Particle> heap;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (on_heap[i]) heap.push_back(particles[i]);
+  }
+  return heap;
 }
 
 }  // namespace talus::rigs

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene.h"
+#include "engine/simulation.h"
 
 namespace talus::rigs {
 
@@ -16,5 +17,10 @@ namespace talus::rigs {
 // 0.
 void AddLanding(std::span<const engine::Particle> particles, double plate_radius,
                 std::vector<bool>& on_heap);
+
+// The heap on a plate of this radius [m], the wall of this index: the grains that a chain of
+// contacts connects with it, or that are about to land, by id.
+std::vector<engine::Particle> HeapOn(const engine::Simulation& simulation, int plate,
+                                     double plate_radius);
 
 }  // namespace talus::rigs

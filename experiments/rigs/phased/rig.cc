@@ -69,10 +69,7 @@ FilledRig FillRig(const Case& c, const Vessel& vessel,
 void Rig::SetPhases(std::vector<Phase> phases, double test_time) {
   simulated_time_ = SimulatedTime(case_, test_time) + (pour_ ? pour_->Duration() : 0);
   if (pour_) phases_.push_back(Pouring());
-  phases_.push_back(Resting(kSettling, case_.rules.settling));
-  if (pour_) {
-    phases_.back().criterion = [this] { return AtRest(case_.rules.settling) && HasLanded(); };
-  }
+  phases_.push_back(Resting(kSettling, case_.rules.settling, [this] { return HasLanded(); }));
   if (case_.filling.taps) {
     phases_.push_back(Tapping(*case_.filling.taps));
     phases_.push_back(Resting(kSettling, case_.rules.settling));
@@ -94,10 +91,10 @@ Phase Rig::Pouring() {
           .end = [this] { state_.num_filled = state_.pour.num_poured; }};
 }
 
-Phase Rig::Resting(const std::string& name, const RestRule& rule) {
+Phase Rig::Resting(const std::string& name, const RestRule& rule, std::function<bool()> also) {
   return {.name = name,
           .ends_with = PhaseEnd::kAtRest,
-          .criterion = [this, rule] { return AtRest(rule); },
+          .criterion = [this, rule, also] { return AtRest(rule) && (!also || also()); },
           .hold_time = rule.hold_time,
           .cap = [rule] { return rule.max_time; }};
 }
@@ -183,6 +180,7 @@ bool Rig::Held(const Phase& phase) {
 
 // What left the mouth last has come down: in flight it is too little to show.
 bool Rig::HasLanded() const {
+  if (!pour_) return true;
   const double fall = FallHeight(case_, vessel_, *pour_);
   return simulation_.time() - phase_start() >= std::sqrt(2 * fall / case_.gravity);
 }

@@ -63,7 +63,8 @@ class Rig {
   // take `test_time` [s].
   void SetPhases(std::vector<Phase> phases, double test_time);
   Phase Tapping(const TapRule& taps);  // all walls are lifted and let fall
-  Phase Resting(const std::string& name, const RestRule& rule);
+  // It lasts until the powder is at rest, and `also` holds where it is given.
+  Phase Resting(const std::string& name, const RestRule& rule, std::function<bool()> also = {});
   static Phase Lasting(const std::string& name, double duration);
 
   // At each look, before the phase's criterion; an end ends the phase.
