@@ -1,7 +1,6 @@
 #include "experiments/rigs/case/pairs.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "experiments/rigs/case/materials.h"
 
@@ -67,13 +66,11 @@ engine::PairProperties& PairWith(std::vector<engine::PairSpec>& pairs, int body)
 }
 
 std::vector<engine::MaterialPair> PairsOf(const Case& c) {
-  const double coarse =
-      std::pow(c.coarse_graining.scale_factor, c.coarse_graining.surface_energy_exponent);
   std::vector<engine::MaterialPair> pairs;
   for (const engine::PairSpec& pair : c.pairs) {
     pairs.push_back({.first = kPowder, .second = PartnerOf(pair).value(), .stated = pair.stated});
     auto& surface_energy = pairs.back().stated.surface_energy;
-    if (surface_energy) *surface_energy *= coarse;
+    if (surface_energy) *surface_energy *= SurfaceEnergyFactor(c);
   }
   return pairs;
 }

@@ -19,7 +19,7 @@ struct WallMaterial {
   std::optional<double> sliding_friction{};  // [-]
   std::optional<double> rolling_friction{};  // [-]
   std::optional<double> rolling_damping{};   // [-]
-  std::optional<double> surface_energy{};    // [J/m²], not scaled by the coarse graining
+  std::optional<double> surface_energy{};    // [J/m²], before the coarse graining
   std::optional<double> hamaker_constant{};  // [J]
 
   template <class Self, class Visitor>
@@ -36,7 +36,8 @@ struct WallMaterial {
     visit("rolling_friction", self.rolling_friction, {.doc = "rolling friction mu_r, >= 0"});
     visit("rolling_damping", self.rolling_damping, {.doc = "rolling damping ratio eta_r, >= 0"});
     visit("surface_energy", self.surface_energy,
-          {.dimension = Dimension::kSurfaceEnergy, .doc = "used as given: not coarse-grained"});
+          {.dimension = Dimension::kSurfaceEnergy,
+           .doc = "surface energy, >= 0; coarse-grained as the powder's is"});
     visit("hamaker_constant", self.hamaker_constant,
           {.dimension = Dimension::kEnergy, .doc = "Hamaker constant of the DMT model, > 0"});
   }

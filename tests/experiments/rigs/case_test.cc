@@ -64,13 +64,13 @@ TEST(Case, ASizeFileMovesIntoTheCase) {
   EXPECT_THAT(CaseText(rig_case), ::testing::Not(HasSubstr("heap_case_sizes")));
 }
 
-// Whatever the two materials are; γ of a pair is coarse-grained as the powder's (C1).
+// Whatever the two materials are; γ of a pair and of a wall is coarse-grained as the powder's (C1).
 TEST(Case, PairsOfTheCaseActInItsScene) {
   const Case rig_case = LoadCase(Write("heap_case_pairs.json", R"({
     "powder": {"material": {"density": 2500},
                "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.2 g"},
     "models": {"adhesion": "dmt"},
-    "device": {"plate_material": {"sliding_friction": 0.9}},
+    "device": {"plate_material": {"sliding_friction": 0.9, "surface_energy": "0.3 mJ/m^2"}},
     "coarse_graining": {"scale_factor": 2},
     "pairs": [{"between": ["plate", "powder"], "sliding_friction": 0.25,
                "surface_energy": "1 mJ/m^2"}]})"));
@@ -80,6 +80,7 @@ TEST(Case, PairsOfTheCaseActInItsScene) {
   EXPECT_DOUBLE_EQ(scene.pairs[0].stated.sliding_friction.value(), 0.25);
   EXPECT_DOUBLE_EQ(scene.pairs[0].stated.surface_energy.value(), 2e-3);
   EXPECT_FALSE(scene.pairs[0].stated.rolling_friction);
+  EXPECT_DOUBLE_EQ(scene.materials[kFloor].surface_energy, 6e-4);
 }
 
 TEST(Case, HashIgnoresWhatDoesNotChangeTheHeap) {
