@@ -27,6 +27,26 @@ foreach(library IN LISTS found)
   file(COPY_FILE "${file}" "${libraries}/${name}")
 endforeach()
 
+# What they are under, from the packages that they are of.
+file(MAKE_DIRECTORY "${root}/share/doc/talus/libraries")
+foreach(library IN LISTS found)
+  get_filename_component(file "${library}" REALPATH)
+  string(REGEX REPLACE "^/usr" "" without_usr "${file}")  # dpkg knows some of /usr/lib as /lib
+  foreach(path "${file}" "${without_usr}")
+    execute_process(COMMAND dpkg -S "${path}" OUTPUT_VARIABLE owner RESULT_VARIABLE unknown ERROR_QUIET)
+    if(NOT unknown)
+      break()
+    endif()
+  endforeach()
+  string(REGEX MATCH "^[^:,\n]+" package "${owner}")
+  set(copyright "/usr/share/doc/${package}/copyright")
+  if(unknown OR NOT EXISTS "${copyright}")
+    message(FATAL_ERROR "${library}: no package says what it is under")
+  endif()
+  get_filename_component(copyright "${copyright}" REALPATH)
+  file(COPY_FILE "${copyright}" "${root}/share/doc/talus/libraries/${package}")
+endforeach()
+
 # The loader goes by the name that the program asks for it.
 execute_process(COMMAND readelf -l "${libraries}/talus" OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCH "interpreter: ([^]]+)" _ "${headers}")

@@ -18,15 +18,29 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/talusConfig.cmake ${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
     cmake/FindOpenCVImgproc.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
 # Examples find their schema at ../../docs, in the source tree and installed.
-install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
+install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus
+  PATTERN campaign EXCLUDE)  # where one was run
 # What they link to stands where it does in the source tree.
 foreach(file README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE CITATION.cff bench/RECORD.md
     bench/drum_mcc/README.md bench/drum_mcc/swelling.py bench/optimizers/README.md bench/optimizers/RECORD.md
-    tests/fuzz/README.md)
+    tests/fuzz/README.md third_party/echarts/README.md)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/${folder})
 endforeach()
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The licence and those of what is inside the program, as Debian's packages have them.
+set(copyright "talus is under the licence in the file LICENSE beside this one. Inside the program, and in every report that it \
+writes, are Apache ECharts and ECharts-GL, unchanged. Their licences:\n")
+file(GLOB licences CONFIGURE_DEPENDS third_party/echarts/NOTICE.* third_party/echarts/LICENSE.*)
+foreach(file IN LISTS licences)
+  file(READ ${file} text)
+  get_filename_component(name ${file} NAME)
+  string(APPEND copyright "\n--- ${name} ---\n\n${text}\n")
+endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "@copyright@" @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${licences} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/third_party/echarts)
 
 # Man pages and completions are what the program says of itself.
 set(talus_described ${PROJECT_BINARY_DIR}/described)

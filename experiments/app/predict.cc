@@ -45,18 +45,27 @@ void CheckNames(const std::vector<std::string>& cases) {
   }
 }
 
+analysis::PredictOptions OptionsFor(const std::string& file, const PredictArguments& arguments) {
+  analysis::PredictOptions options = arguments.options;
+  options.file = file;
+  options.set = ReadSetArgument(arguments.set);
+  if (!arguments.budget.empty()) {
+    options.core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
+  }
+  return options;
+}
+
 void RunPredict(const PredictArguments& arguments) {
   CheckNames(arguments.cases);
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
   WarnOfDoubts(arguments.folder);
+  // What is wrong with the last case shows before the first is simulated.
+  for (const std::string& file : arguments.cases) {
+    analysis::CheckPrediction(view, OptionsFor(file, arguments));
+  }
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : arguments.cases) {
-    analysis::PredictOptions options = arguments.options;
-    options.file = file;
-    options.set = ReadSetArgument(arguments.set);
-    if (!arguments.budget.empty()) {
-      options.core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
-    }
+    const analysis::PredictOptions options = OptionsFor(file, arguments);
     // A queue's own files stand beside the predictions, not among those of the campaign's trials.
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));

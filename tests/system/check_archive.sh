@@ -15,6 +15,8 @@ env LD_DEBUG=files OMP_WAIT_POLICY=passive "$libraries"/ld-linux-* --inhibit-cac
   "$libraries/talus" --version 2>&1 >/dev/null | sed -n 's/.*calling init: //p' | while read -r library; do
   case "$library" in "$home"/* | */ld-linux-*) ;; *) echo "$library is this system's"; exit 1 ;; esac
 done
+test -s "$home/share/doc/talus/copyright"
+test -s "$home/share/doc/talus/libraries/libc6"  # as of each library
 cat >"$work/case.json" <<'CASE'
 {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"density": 2500, "youngs_modulus": "1 MPa"}},
  "frame": {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70, "plate_diameter": 0.01}}

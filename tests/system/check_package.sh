@@ -10,6 +10,7 @@ depends=$(dpkg-deb -f "$1" Depends)
 "$work/usr/bin/talus" validate "$work/usr/share/talus/examples/demo/campaign.json" >"$work/log"
 test -s "$work/usr/share/talus/docs/campaign.schema.json"
 test -s "$work/usr/share/man/man1/talus-calibrate.1"
+grep -q 'ECharts-GL' "$work/usr/share/doc/talus/copyright"
 objdump -p "$work/usr/bin/talus" | sed -n 's/^ *NEEDED *//p' | while read -r library; do
   path=$(ldd "$work/usr/bin/talus" | sed -n "s|.*$library => \([^ ]*\) .*|\1|p")
   [ -n "$path" ] || continue  # the loader itself

@@ -8,7 +8,7 @@ cmake --install "$2" --prefix "$work/prefix" >"$work/log" || { cat "$work/log"; 
 "$work/prefix/bin/talus" --version
 share="$work/prefix/share"
 for file in man/man1/talus.1 man/man1/talus-calibrate.1 bash-completion/completions/talus \
-    zsh/site-functions/_talus fish/vendor_completions.d/talus.fish doc/talus/LICENSE; do
+    zsh/site-functions/_talus fish/vendor_completions.d/talus.fish doc/talus/LICENSE doc/talus/copyright; do
   test -s "$share/$file" || { echo "$file is missing"; exit 1; }
 done
 for example in "$share"/talus/examples/*/campaign.json; do

@@ -29,7 +29,6 @@
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
 #include "experiments/campaign/run_cases.h"
-#include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"
 #include "optimizer/space/point_rows.h"
@@ -56,6 +55,7 @@ class Predictor {
                             .num_seeds = num_seeds_,
                             .coarser = options_.Coarser(),
                             .core_time = CoreTime()})) {
+    for (const PredictionStage& stage : stages_) RequireSimulable(case_, stage.scale_factor);
     if (!options_.measured.empty()) {
       measured_ = ReadMeasured(options_.measured, case_);
       if (measured_.profile) case_.rig_case.frame = imaging::OnePicture(measured_.profile->frame);
@@ -118,17 +118,6 @@ class Predictor {
     return name;
   }
 
-  std::string TestText() const {
-    if (!case_.scene_text.empty()) return case_.scene_text;
-    rigs::Case rig_case = case_.rig_case;
-    rig_case.frame.reset();
-    return rigs::CaseText(rig_case);
-  }
-
-  std::string FrameText() const {
-    return case_.rig_case.frame ? base::JsonText(base::ToJson(*case_.rig_case.frame)) : "";
-  }
-
   std::int64_t LastTrial() const {
     std::int64_t last = 0;
     for (const journal::TrialRecord& trial : view_.trials) {
@@ -147,8 +136,8 @@ class Predictor {
   // The sets of an earlier call, where it was for the same.
   PredictionDesign TakeDesign() {
     const fs::path file = root_ / "design.json";
-    PredictionDesign wanted{.test = TestText(),
-                            .frame = FrameText(),
+    PredictionDesign wanted{.test = TestText(case_),
+                            .frame = FrameText(case_),
                             .by = options_.By(),
                             .num_draws = num_draws_,
                             .last_trial = LastTrial(),
@@ -386,15 +375,22 @@ class Predictor {
   std::vector<FlowRegime> regimes_;
 };
 
+PredictOptions CheckedOptions(const JointView& view, const PredictOptions& options) {
+  CheckOptions(options);
+  return options.as_before ? AsBefore(view, options) : options;
+}
+
 }  // namespace
 
 fs::path PredictFolder(const fs::path& campaign) { return fs::absolute(campaign) / "predict"; }
 
+void CheckPrediction(const JointView& view, const PredictOptions& options) {
+  Predictor(view, CheckedOptions(view, options), {});
+}
+
 Prediction Predict(const JointView& view, const PredictOptions& options,
                    campaign::CampaignParts parts) {
-  CheckOptions(options);
-  return Predictor(view, options.as_before ? AsBefore(view, options) : options, std::move(parts))
-      .Run();
+  return Predictor(view, CheckedOptions(view, options), std::move(parts)).Run();
 }
 
 }  // namespace talus::analysis

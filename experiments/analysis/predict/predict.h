@@ -13,6 +13,9 @@
 
 namespace talus::analysis {
 
+// Throws ConfigError where Predict would before its first run.
+void CheckPrediction(const campaign::JointView& view, const PredictOptions& options);
+
 // Throws base::Interrupted when the user ends it, with what there is written.
 Prediction Predict(const campaign::JointView& view, const PredictOptions& options,
                    campaign::CampaignParts parts);

@@ -6,6 +6,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/scene_engine.h"
+#include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
@@ -114,11 +115,7 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
                       view.spec.seed);
   rig_case.coarse_graining.scale_factor =
       scale_factor ? *scale_factor : AffordableScale(view, rig_case, budget);
-  base::Problems problems(file.path.string() + " with the campaign's powder at scale factor " +
-                              base::ShortNumber(rig_case.coarse_graining.scale_factor),
-                          {});
-  rigs::ValidateCase(rig_case, problems);
-  problems.ThrowIfAny();
+  RequireSimulable(predicted, rig_case.coarse_graining.scale_factor);
 }
 
 }  // namespace
@@ -128,7 +125,7 @@ PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
                                 double core_time) {
   const base::JsonFile file = base::ReadJsonFile(path);
   PredictedCase predicted{
-      .name = path.stem().string(), .rig_case = {}, .scene_text = {}, .notes = {}};
+      .file = path, .name = path.stem().string(), .rig_case = {}, .scene_text = {}, .notes = {}};
   base::Problems problems(path.string(), file.places);
   const bool is_case = file.root.is_object() && file.root.contains("powder");
   problems.Require(is_case || (file.root.is_object() && file.root.contains("materials")), "",
@@ -149,6 +146,29 @@ PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
     predicted.states_scale_factor = true;  // by its grains
   }
   return predicted;
+}
+
+void RequireSimulable(const PredictedCase& predicted, double scale_factor) {
+  if (!predicted.scene_text.empty()) return;
+  rigs::Case rig_case = predicted.rig_case;
+  rig_case.coarse_graining.scale_factor = scale_factor;
+  base::Problems problems(predicted.file.string() + " with the campaign's powder at scale factor " +
+                              base::ShortNumber(scale_factor),
+                          {});
+  rigs::ValidateCase(rig_case, problems);
+  problems.ThrowIfAny();
+}
+
+std::string TestText(const PredictedCase& predicted) {
+  if (!predicted.scene_text.empty()) return predicted.scene_text;
+  rigs::Case rig_case = predicted.rig_case;
+  rig_case.frame.reset();
+  return rigs::CaseText(rig_case);
+}
+
+std::string FrameText(const PredictedCase& predicted) {
+  const auto& frame = predicted.rig_case.frame;
+  return frame ? base::JsonText(base::ToJson(*frame)) : "";
 }
 
 std::vector<engine::PairSpec> PairsOfGrains(const JointView& view) {

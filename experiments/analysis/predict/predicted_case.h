@@ -17,6 +17,7 @@
 namespace talus::analysis {
 
 struct PredictedCase {
+  std::filesystem::path file;
   std::string name;                  // of the file, without its ending
   rigs::Case rig_case;               // of a scene: its powder and laws alone
   std::string scene_text;            // scene.json; empty: a bulk test
@@ -31,6 +32,14 @@ struct PredictedCase {
 PredictedCase ReadPredictedCase(const campaign::JointView& view, const std::filesystem::path& file,
                                 std::optional<double> scale_factor, int num_runs,
                                 double core_time = 240);
+
+// Throws ConfigError where the case cannot be simulated at this scale factor.
+void RequireSimulable(const PredictedCase& predicted, double scale_factor);
+
+// What the runs are of, but for the frame: scene.json or case.json.
+std::string TestText(const PredictedCase& predicted);
+// Empty without a frame.
+std::string FrameText(const PredictedCase& predicted);
 
 // What two grains of the campaign's powder state as a pair; one pair at most.
 std::vector<engine::PairSpec> PairsOfGrains(const campaign::JointView& view);

@@ -41,6 +41,17 @@ std::string Scripts() {
          std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
 }
 
+// Of the charting library, which asks that they go with every copy.
+std::string Licences() {
+  std::string all;
+  for (const std::string_view text :
+       {page_files::kNOTICEEcharts, page_files::kLICENSEEchartsD3, page_files::kLICENSEEchartsGl,
+        page_files::kLICENSEEchartsGlSubcomponents}) {
+    all.append(text).append("\n\n");
+  }
+  return all;
+}
+
 // As long as the campaign runs.
 std::string Reloading(const ReportData& data, const PageOptions& options) {
   if (options.reload <= 0 || data.evidence.state != "running") return "";
@@ -54,12 +65,14 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
   const std::string reload = Reloading(data, options);
   const std::string css = ColorProperties() + std::string(page_files::kPageCss);
   const std::string scripts = Scripts();
+  const std::string licences = Licences();
   // JSON inside a script element: a `<` could end it.
   const std::string json = base::Replaced(PageJson(data), "<", "\\u003c");
-  const std::array<PagePart, 7> parts{{{"title", title},
+  const std::array<PagePart, 8> parts{{{"title", title},
                                        {"reload", reload},
                                        {"css", css},
                                        {"data", json},
+                                       {"licences", licences},
                                        {"echarts", page_files::kEchartsMinJs},
                                        {"echarts_gl", page_files::kEchartsGlMinJs},
                                        {"js", scripts}}};
