@@ -31,12 +31,19 @@ install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The licence and those of what is inside the program, as Debian's packages have them.
 set(copyright "talus is under the licence in the file LICENSE beside this one. Inside the program, and in every report that it \
-writes, are Apache ECharts and ECharts-GL, unchanged. Their licences:\n")
+writes, are Apache ECharts and ECharts-GL, unchanged; their licences follow. \
+Those of the libraries that are compiled into it stand in the folder libraries.\n")
 file(GLOB licences CONFIGURE_DEPENDS third_party/echarts/NOTICE.* third_party/echarts/LICENSE.*)
 foreach(file IN LISTS licences)
   file(READ ${file} text)
   get_filename_component(name ${file} NAME)
   string(APPEND copyright "\n--- ${name} ---\n\n${text}\n")
+endforeach()
+# What is compiled into it, as far as Debian's packages say.
+foreach(package libceres-dev libcli11-dev libeigen3-dev libopencv-core-dev nlohmann-json3-dev)
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    install(FILES /usr/share/doc/${package}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}/libraries RENAME ${package})
+  endif()
 endforeach()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "@copyright@" @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -161,5 +161,6 @@ function(talus_add_test path)
   talus_suites_of(${source} filter)
   add_test(NAME ${path} COMMAND ${target} --gtest_filter=${filter})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
-    ENVIRONMENT OMP_WAIT_POLICY=passive)  # as the program sets it (experiments/app/main.cc)
+    # As the program sets it (experiments/app/main.cc).
+    ENVIRONMENT "OMP_WAIT_POLICY=passive;MALLOC_MMAP_THRESHOLD_=33554432;MALLOC_TRIM_THRESHOLD_=268435456")
 endfunction()

@@ -1,4 +1,5 @@
 // The program `talus`.
+#include <malloc.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -51,6 +52,14 @@ void WaitAsleep(char** argv) {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
   if (unknown || setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
   execv(self.c_str(), argv);  // returns only if it fails; then the threads spin
+}
+
+// A surrogate makes and drops matrices of some megabytes all the time. What is handed back to the
+// system for each of them must be cleared by it again, which takes a third of a short campaign.
+void KeepMemory() {
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);  // the most that the library takes
+  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
 }
 
 // "Could not convert: --views = x" of CLI11, told as we would. Only numbers can fail to be read.
@@ -108,6 +117,7 @@ std::string InWords(const std::exception& error) {
 
 int main(int argc, char** argv) {
   WaitAsleep(argv);
+  KeepMemory();
   LetWritesFail();
   // Names, logs and messages of others are shown, never obeyed.
   const talus::base::PrintableStream output(std::cout);

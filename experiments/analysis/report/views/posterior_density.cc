@@ -24,17 +24,31 @@ constexpr double kReach = 4;  // of a kernel, in its widths
 
 double UnitNormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
+// From the i-th row to each. In plain loops, since there are as many as draws, squared, and what
+// makes pages is little optimised.
+void SquaredDistances(const Eigen::MatrixXd& rows, Eigen::Index i, std::vector<double>& squared) {
+  squared.assign(static_cast<std::size_t>(rows.rows()), 0.0);
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    const double* column = rows.data() + k * rows.rows();
+    const double here = column[i];
+    for (std::size_t j = 0; j < squared.size(); ++j) {
+      const double apart = column[j] - here;
+      squared[j] += apart * apart;
+    }
+  }
+}
+
 // The width of each draw's kernel.
 Eigen::VectorXd Widths(const Eigen::MatrixXd& draws, const KernelWidth& kernel, int num_cells) {
   const Eigen::Index count = draws.rows();
   const auto nth = static_cast<std::ptrdiff_t>(kernel.neighbour_share * static_cast<double>(count));
   Eigen::VectorXd widths(count);
+  std::vector<double> squared;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::VectorXd squared = (draws.rowwise() - draws.row(i)).rowwise().squaredNorm();
-    std::vector<double> sorted(squared.data(), squared.data() + count);
-    std::nth_element(sorted.begin(), sorted.begin() + nth, sorted.end());
+    SquaredDistances(draws, i, squared);
+    std::nth_element(squared.begin(), squared.begin() + nth, squared.end());
     widths[i] =
-        std::max(0.5 * std::sqrt(sorted[static_cast<std::size_t>(nth)]), kernel.least / num_cells);
+        std::max(0.5 * std::sqrt(squared[static_cast<std::size_t>(nth)]), kernel.least / num_cells);
   }
   return widths;
 }
