@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """command_line_test.py TALUS SOURCE_DIR: help, misspelt words, man pages, completion, readers that go away, and progress
 for scripts."""
+import functools
 import json
 import os
 import pathlib
@@ -34,6 +35,7 @@ def talus(*arguments):
     return subprocess.run([TALUS, *arguments], capture_output=True, text=True)
 
 
+@functools.cache
 def verbs():
     script = talus("completion", "bash").stdout
     line = next(line for line in script.splitlines() if "compgen -W 'init" in line)

@@ -21,7 +21,7 @@ CONE = """awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} 'BEGIN {
 FAILS = "# {{ sliding_friction }} {{ rolling_friction }}\necho 'seed {{ seed }}'; echo 'ERROR: lost atoms'; exit 3\n"
 NUMBERS = ("echo \"tapped_density_kg_per_m3,$(awk 'BEGIN {print 1400 + 100 * {{ sliding_friction }} + "
            "50 * {{ rolling_friction }}}')\" >scalars.csv\n")
-HEAP = {"photos": str(SOURCE / "examples/photos/powder_a"), "pattern": "run{run}_view{view}.jpg",
+HEAP = {"photos": str(SOURCE / "examples/photos/powder_a"), "pattern": "run01_view{view}.jpg",
         "plate_diameter": "10 mm", "pixel_size": "100 um"}
 TAPPED = {"name": "taps", "rig": {"kind": "tapped_density", "diameter": "10 mm"},
           "tapped_density": {"value": "1450 kg/m^3", "sd": "5 kg/m^3"}}

@@ -101,7 +101,7 @@ def extend_again(folder):
 def add_again(folder):
     if "plate" in json.dumps(spec_of(folder).get("experiments", [])):
         return ["resume", "out", "--quiet"]
-    return ["add-experiment", "out", "further.json", "--quiet"]
+    return ["add-experiment", "out", "further.json", "--core-time", "1 ms", "--quiet"]
 
 
 # Its budget is of core time, so that no two runs have the same trials.
@@ -130,7 +130,8 @@ VERBS = {  # name: what is done before, the verb, what goes on when there is roo
     "resume": (["calibrate", "learning.json", "--out", "out", "--quiet"],
                ["resume", "out", "--add-simulations", "1", "--quiet"], extend_again, campaign_answer),
     "add-experiment": (["calibrate", "learning.json", "--out", "out", "--quiet"],
-                       ["add-experiment", "out", "further.json", "--quiet"], add_again, is_answered_with_both),
+                       ["add-experiment", "out", "further.json", "--core-time", "1 ms", "--quiet"], add_again,
+                       is_answered_with_both),
     "next": (["calibrate", "learning.json", "--out", "out", "--quiet"], ["next", "out"], None,
              content("out/next/next.json")),
     "sensitivity": (["calibrate", "learning.json", "--out", "out", "--quiet"],
@@ -184,15 +185,23 @@ def check(name, moment, fresh, calm):
     return ""
 
 
+def made_before(before, root):
+    """A folder with the inputs and with what the command `before` has left; several verbs come after one of them."""
+    folder = root / "_".join(["inputs", *before[1:2]])
+    if not folder.exists():
+        folder.mkdir()
+        inputs(folder)
+        if before:
+            assert talus(before, folder).returncode == 0
+    return folder
+
+
 def main():
     faults = []
+    root = tempfile.TemporaryDirectory()
     for name, (before, verb, _, answer) in VERBS.items():
         with tempfile.TemporaryDirectory() as scratch:
-            fresh, used = pathlib.Path(scratch) / "fresh", pathlib.Path(scratch) / "used"
-            fresh.mkdir()
-            inputs(fresh)
-            if before:
-                assert talus(before, fresh).returncode == 0
+            fresh, used = made_before(before, pathlib.Path(root.name)), pathlib.Path(scratch) / "used"
             shutil.copytree(fresh, used)
             counted = pathlib.Path(scratch) / "count"
             done = talus(verb, used, TALUS_FULL_COUNT=str(counted))

@@ -53,7 +53,8 @@ def search_two(spec, source):
 def make_spec(source, folder, simulations, two):
     spec = json.loads(without_comments((source / "examples/demo/campaign.json").read_text()))
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
-    spec["experiment"]["pixel_size"] = "200 um"
+    # One run: reading five would take longer than most campaigns here live.
+    spec["experiment"] |= {"pattern": "run01_view{view}.jpg", "pixel_size": "200 um"}
     spec["budget"] = {"simulations": simulations, "min_simulations": simulations}
     spec["noise"] = {"replicates": 2}
     spec["confirm"] = {"candidates": 1, "replicates": 2, "ends": False}
@@ -91,13 +92,14 @@ def finished_trials(talus, folder, out="out"):
 
 
 def killed_campaign(talus, source, most_kills, dice, two):
-    """A campaign killed at random moments until it ends by itself; the kills and its trials."""
+    """A campaign killed at random moments until it ends by itself; the kills, those of them after its first trial began,
+    and its trials."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name).resolve()
         simulations = 2 + 2 * most_kills
         confirming = 4 if two else 2
         make_spec(source, folder, simulations, two)
-        before, kills = {}, 0
+        before, kills, late_kills = {}, 0, 0
         command = [talus, "calibrate", "spec.json", "--out", "out"]
         while True:
             campaign = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE,
@@ -123,6 +125,7 @@ def killed_campaign(talus, source, most_kills, dice, two):
                 continue
             command = [talus, "resume", "out"]
             assert campaign.returncode in (0, *KILLED), output
+            late_kills += campaign.returncode != 0
             now = finished_trials(talus, folder)
             lost = [trial for trial, content in before.items() if now.get(trial) != content]
             assert not lost, f"these trials are lost or changed: {lost}"
@@ -136,19 +139,20 @@ def killed_campaign(talus, source, most_kills, dice, two):
         whole = finished_trials(talus, folder, "whole")
         others = [trial for trial, content in whole.items() if before[trial] != content]
         assert not others, f"these trials are not those of a campaign that nobody killed: {others}"
-        return kills, len(before)
+        return kills, late_kills, len(before)
 
 
 def main():
-    arguments = chance_arguments("kills", 12, "--two")
+    arguments = chance_arguments("kills", 16, "--two")
     dice = random.Random(arguments.seed)
-    kills, trials = 0, 0
+    kills, late_kills, trials = 0, 0, 0
     while kills < arguments.kills:  # a fast machine ends a campaign after few kills
         # The posterior's proposals become dearer with the trials: many short campaigns.
         most = min(arguments.kills - kills, 20) if arguments.two else arguments.kills - kills
-        more_kills, more_trials = killed_campaign(arguments.talus, arguments.source, most, dice, arguments.two)
-        kills, trials = kills + more_kills, trials + more_trials
-    print(f"{kills} kills, {trials} trials, none lost, nothing left running")
+        more_kills, more_late, more_trials = killed_campaign(arguments.talus, arguments.source, most, dice, arguments.two)
+        kills, late_kills, trials = kills + more_kills, late_kills + more_late, trials + more_trials
+    print(f"{kills} kills, {late_kills} of them of a campaign that had begun, {trials} trials, none lost, nothing left running")
+    assert late_kills > 0, "no campaign lived long enough to be killed at work: try more kills"
 
 
 if __name__ == "__main__":

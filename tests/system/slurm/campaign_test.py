@@ -41,7 +41,7 @@ def spec(folder, runner, num_trials=24, workers=1):
         "engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"],
                    "result": "heap.csv"},
         "experiment": {"photos": str(source / "examples/photos/powder_a"),
-                       "pattern": "run{run}_view{view}.jpg", "plate_diameter": "10 mm",
+                       "pattern": "run01_view{view}.jpg", "plate_diameter": "10 mm",
                        "pixel_size": "100 um"},
         "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g"},
         "device": {"plate": "disc"},
