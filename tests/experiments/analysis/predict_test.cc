@@ -255,6 +255,7 @@ TEST_F(PredictTest, WhatContradictsTheCampaignIsRefusedAndNothingIsWritten) {
               HasSubstr("models.rolling: is \"constant\", but the set was calibrated with"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {0.5}}), HasSubstr("--scale: is 0.5"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {20}}), HasSubstr("at scale factor 20"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {2, 20}}), HasSubstr("at scale factor 20"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {2, 2}}), HasSubstr("names one twice"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {2, 1}, .recommended = true}),
               HasSubstr("--scale: names several"));
