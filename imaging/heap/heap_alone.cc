@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "imaging/one_thread.h"
+
 namespace talus::imaging {
 namespace {
 
@@ -26,6 +28,7 @@ int HeapAmong(const cv::Mat& stats, const Frame& frame) {
 }  // namespace
 
 GrayImage HeapAlone(const GrayImage& image, const Frame& frame) {
+  KeepToOneThread();
   const cv::Mat pixels(image.height, image.width, CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat labels, stats, centers;

@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "imaging/one_thread.h"
+
 namespace talus::imaging {
 namespace {
 
@@ -28,6 +30,7 @@ cv::Matx23d PhotoFromFrame(const PlatePose& plate, double scale, const Frame& fr
 
 cv::Mat Resample(const BacklitPhoto& photo, const PlatePose& plate, double scale,
                  const Frame& frame) {
+  KeepToOneThread();
   cv::Mat source(photo.image.height, photo.image.width, CV_32F,
                  const_cast<float*>(photo.image.pixels.data()));
   if (scale > 1.2) {  // coarser than photographed: each pixel is the mean of what it covers

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "imaging/one_thread.h"
+
 namespace talus::imaging {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr double kLeastBelow = 0.1;  // of a hanging area's size: what lies belo
 // The largest dark area; where that hangs from the upper border, as a lifted tube does, the largest
 // of those that lie wholly below it, if one is large enough for a heap on its plate.
 cv::Mat LargestArea(const BacklitPhoto& photo) {
+  KeepToOneThread();
   const cv::Mat relative(photo.image.height, photo.image.width, CV_32F,
                          const_cast<float*>(photo.image.pixels.data()));
   const cv::Mat dark = relative < photo.threshold;
