@@ -85,6 +85,10 @@ void Run(std::map<std::string, std::string> options) {
 
 int main(int argc, char** argv) {
   try {
+    if (argc % 2 == 0) {
+      std::fputs("engine_heap [--spheres N] [--ratio D/d] … (see the head of the source)\n", stderr);
+      return base::kExitBadInput;
+    }
     std::map<std::string, std::string> options;
     for (int i = 1; i + 1 < argc; i += 2) options[argv[i]] = argv[i + 1];
     Run(options);

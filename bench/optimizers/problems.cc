@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "bench/optimizers/arguments.h"
 #include "bench/optimizers/heap_shape.h"
 #include "bench/optimizers/random_numbers.h"
 
@@ -72,7 +73,7 @@ struct CubeWarp {
   }
 };
 
-// The factor of levels 1, 2 and 3; README.md has the noise of simulated heaps.
+// The factor of levels 1, 2 and 3; RECORD.md has the noise of simulated heaps.
 double NoiseFactor(int level) {
   static constexpr std::array<double, 3> kFactors{1, 3, 2.1};
   return kFactors.at(static_cast<std::size_t>(level - 1));
@@ -370,7 +371,7 @@ std::unique_ptr<Problem> MakeProblem(const std::string& name, int instance) {
       {"banana", Make<Banana>},           {"heap", Make<Heap>},
       {"heap_misfit", Make<HeapMisfit>}};
   const auto maker = kMakers.find(name);
-  if (maker == kMakers.end()) return nullptr;
+  if (maker == kMakers.end()) Arguments::Fail("there is no problem " + name);
   Rng r(Mix(HashString(name)) ^ Mix(static_cast<std::uint64_t>(instance) * 7919u));
   std::unique_ptr<Problem> p = maker->second(r);
   p->name = name;

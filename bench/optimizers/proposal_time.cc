@@ -70,6 +70,10 @@ int main(int argc, char** argv) {
   const int num_trials = argc > 1 ? std::atoi(argv[1]) : 200;
   const std::string only = argc > 2 ? argv[2] : "";
   using Kind = talus::optimizer::StrategyKind;
+  if (!only.empty() && only != "gp" && only != "auto") {
+    std::fprintf(stderr, "usage: optimizer_proposal_time [NUMBER OF TRIALS] [gp|auto]\n");
+    return 2;
+  }
   for (const Kind kind : {Kind::kGp, Kind::kAuto}) {
     if (only.empty() || only == talus::base::NameOf(kind)) talus::bench::Time(kind, num_trials);
   }

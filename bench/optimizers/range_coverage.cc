@@ -1,5 +1,5 @@
 // How often the stated ranges hold the truth: twin calibrations on synthetic heaps, whose target is
-// the mean of a few heaps made with known parameters. README.md prints the table.
+// the mean of a few heaps made with known parameters. RECORD.md has the table.
 //
 //   range_coverage [--first 1] [--last 24] [--budget 40] [--heaps 5] [--proposals PREFIX]
 //
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <string>
 
+#include "bench/optimizers/arguments.h"
 #include "bench/optimizers/problems.h"
 #include "optimizer/strategy/make_strategy.h"
 
@@ -34,14 +35,13 @@ struct Tally {
 
 Options Parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string key = argv[i];
-    if (key == "--first") options.first = std::stoi(argv[i + 1]);
-    if (key == "--last") options.last = std::stoi(argv[i + 1]);
-    if (key == "--budget") options.budget = std::stoi(argv[i + 1]);
-    if (key == "--heaps") options.heaps = std::stoi(argv[i + 1]);
-    if (key == "--proposals") options.proposals = argv[i + 1];
-  }
+  Arguments arguments(argc, argv);
+  arguments.Take("--first", options.first);
+  arguments.Take("--last", options.last);
+  arguments.Take("--budget", options.budget);
+  arguments.Take("--heaps", options.heaps);
+  arguments.Take("--proposals", options.proposals);
+  arguments.End();
   return options;
 }
 
@@ -77,7 +77,9 @@ optimizer::Answer Calibrate(const Options& options, const Problem& problem, cons
   for (int told = 0; told < options.budget; ++told) {
     Eigen::VectorXd point(D);
     if (retell) {
-      kept >> point[0] >> point[1] >> point[2];
+      if (!(kept >> point[0] >> point[1] >> point[2])) {
+        Arguments::Fail(file + " has fewer proposals than the budget: remove it");
+      }
     } else {
       point = strategy->Ask(1, {}).front().point;
       keep << point.transpose() << '\n';

@@ -1,6 +1,6 @@
 // Runs a strategy on the benchmark problems and prints the solved fractions.
 //
-//   optimizer_bench [--strategy surrogate] [--noise 0|1|2|3] [--instances 1-8] [--problems a,b]
+//   optimizer_bench [--strategy auto] [--noise 0|1|2|3] [--instances 1-8] [--problems a,b]
 //                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--stop 0.75] [--seeds 20]
 //                   [--oracle 0.1]
 //
@@ -20,11 +20,11 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/random.h"
+#include "bench/optimizers/arguments.h"
 #include "bench/optimizers/problems.h"
 #include "optimizer/strategy/make_strategy.h"
 
@@ -45,37 +45,21 @@ struct Options {
   std::string csv;
 };
 
-std::vector<std::string> Split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
 Options Parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string key = argv[i];
-    const std::string value = argv[i + 1];
-    if (key == "--strategy") options.strategy = value;
-    if (key == "--noise") options.noise = std::stoi(value);
-    if (key == "--batch") options.batch = std::stoi(value);
-    if (key == "--csv") options.csv = value;
-    if (key == "--stop") options.stop_multiple = std::stod(value);
-    if (key == "--oracle") options.oracle = std::stod(value);
-    if (key == "--seeds") options.num_seeds = std::stoi(value);
-    if (key == "--problems") options.problems = Split(value);
-    if (key == "--instances") {
-      const auto dash = value.find('-');
-      options.first_instance = std::stoi(value);
-      options.last_instance =
-          dash == std::string::npos ? options.first_instance : std::stoi(value.substr(dash + 1));
-    }
-    if (key == "--budgets") {
-      options.budgets.clear();
-      for (const std::string& part : Split(value)) options.budgets.push_back(std::stoi(part));
-    }
-  }
+  Arguments arguments(argc, argv);
+  arguments.Take("--strategy", options.strategy);
+  arguments.Take("--noise", options.noise);
+  arguments.Take("--batch", options.batch);
+  arguments.Take("--csv", options.csv);
+  arguments.Take("--stop", options.stop_multiple);
+  arguments.Take("--oracle", options.oracle);
+  arguments.Take("--seeds", options.num_seeds);
+  arguments.Take("--problems", options.problems);
+  arguments.TakeRange("--instances", options.first_instance, options.last_instance);
+  arguments.Take("--budgets", options.budgets);
+  if (options.noise < 0 || options.noise > 3) Arguments::Fail("--noise must be 0, 1, 2 or 3");
+  arguments.End();
   return options;
 }
 
@@ -95,9 +79,13 @@ std::unique_ptr<optimizer::Strategy> MakeFor(const Options& options, const Probl
                                              std::uint64_t seed) {
   optimizer::StrategyOptions strategy;
   strategy.stop_multiple = options.stop_multiple;
+  bool is_known = false;
   for (const auto& [name, kind] : base::Names<optimizer::StrategyKind>::kList) {
-    if (name == options.strategy) strategy.kind = kind;
+    if (name != options.strategy) continue;
+    strategy.kind = kind;
+    is_known = true;
   }
+  if (!is_known) Arguments::Fail("--strategy: there is no " + options.strategy);
   const optimizer::Domain domain{.num_parameters = D};
   if (!problem.HasImage()) return optimizer::MakeStrategy(strategy, domain, nullptr, seed);
   const Image target = problem.Target();

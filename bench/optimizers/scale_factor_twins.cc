@@ -4,7 +4,7 @@
 //
 //   scale_factor_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
 //                  [--useless yes] [--tests 1] [--nuisances 0] [--until-stop yes] [--stop-share
-//                  0.1] [--look yes] [--begun 1]
+//                  0.1] [--again yes] [--look yes] [--begun 1]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
 // and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
@@ -23,10 +23,10 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "base/random.h"
+#include "bench/optimizers/arguments.h"
 #include "bench/optimizers/problems.h"
 #include "bench/optimizers/scale_factor_heaps.h"
 #include "optimizer/strategy/posterior_strategy.h"
@@ -58,25 +58,21 @@ struct Options {
 
 Options Parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string key = argv[i];
-    if (key == "--first") options.first = std::stoi(argv[i + 1]);
-    if (key == "--last") options.last = std::stoi(argv[i + 1]);
-    if (key == "--core-time") options.core_time = std::stod(argv[i + 1]);
-    if (key == "--target") options.target = std::stod(argv[i + 1]);
-    if (key == "--useless") options.useless = true;
-    if (key == "--tests") options.tests = std::stoi(argv[i + 1]);
-    if (key == "--nuisances") options.nuisances = std::stoi(argv[i + 1]);
-    if (key == "--again") options.again = true;
-    if (key == "--look") options.look = true;
-    if (key == "--begun") options.begun = std::stoi(argv[i + 1]);
-    if (key == "--until-stop") options.until_stop = true;
-    if (key == "--stop-share") options.stop_share = std::stod(argv[i + 1]);
-    if (key != "--factors") continue;
-    options.factors.clear();
-    std::stringstream list(argv[i + 1]);
-    for (std::string one; std::getline(list, one, ',');) options.factors.push_back(std::stod(one));
-  }
+  Arguments arguments(argc, argv);
+  arguments.Take("--first", options.first);
+  arguments.Take("--last", options.last);
+  arguments.Take("--core-time", options.core_time);
+  arguments.Take("--factors", options.factors);
+  arguments.Take("--target", options.target);
+  arguments.Take("--useless", options.useless);
+  arguments.Take("--tests", options.tests);
+  arguments.Take("--nuisances", options.nuisances);
+  arguments.Take("--until-stop", options.until_stop);
+  arguments.Take("--stop-share", options.stop_share);
+  arguments.Take("--again", options.again);
+  arguments.Take("--look", options.look);
+  arguments.Take("--begun", options.begun);
+  arguments.End();
   return options;
 }
 

@@ -10,6 +10,7 @@ import argparse
 import csv
 import math
 import statistics
+import sys
 
 MOST = 84
 
@@ -68,13 +69,15 @@ def main() -> None:
     for name, rule in RULES.items():
         if asked.rule not in (None, name):
             continue
-        thresholds = [asked.below] if asked.below else sorted(
+        thresholds = [asked.below] if asked.below is not None else sorted(
             value for value in {rule(look) for run in runs for look in run} if value == value)
         for threshold in thresholds:
             ends = ends_by(runs, rule, threshold)
-            if asked.below or statistics.median(e["evaluations"] for e in ends) <= MOST:
+            if asked.below is not None or statistics.median(e["evaluations"] for e in ends) <= MOST:
                 report(name, threshold, runs, ends)
                 break
+    if min(run[-1]["evaluations"] for run in runs) < MOST:
+        sys.exit(f"the traces must be of at least {MOST} evaluations")
     everyone = [next(look for look in run if look["evaluations"] == MOST) for run in runs]
     report("everyone", MOST, runs, everyone)
 

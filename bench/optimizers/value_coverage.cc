@@ -1,13 +1,13 @@
 // How often the ranges of `gp` hold the optimum in all parameters at once, over eight problems with
-// one optimum each. README.md prints the table.
+// one optimum each. RECORD.md has the table.
 //
 //   value_coverage [--noise 0|1] [--instances 1-4] [--budgets 30,60,90]
 #include <array>
 #include <cstdio>
 #include <map>
-#include <sstream>
 #include <string>
 
+#include "bench/optimizers/arguments.h"
 #include "bench/optimizers/problems.h"
 #include "optimizer/strategy/make_strategy.h"
 
@@ -23,23 +23,11 @@ struct Options {
 
 Options Parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string key = argv[i];
-    const std::string value = argv[i + 1];
-    if (key == "--noise") options.noise = std::stoi(value);
-    if (key == "--instances") {
-      options.first = std::stoi(value);
-      const auto dash = value.find('-');
-      options.last = dash == std::string::npos ? options.first : std::stoi(value.substr(dash + 1));
-    }
-    if (key == "--budgets") {
-      options.budgets.clear();
-      std::istringstream stream(value);
-      for (std::string part; std::getline(stream, part, ',');) {
-        options.budgets.push_back(std::stoi(part));
-      }
-    }
-  }
+  Arguments arguments(argc, argv);
+  arguments.Take("--noise", options.noise);
+  arguments.TakeRange("--instances", options.first, options.last);
+  arguments.Take("--budgets", options.budgets);
+  arguments.End();
   return options;
 }
 
