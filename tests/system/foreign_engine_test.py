@@ -29,7 +29,7 @@ def cheap(folder):
     spec = read(example / "campaign.json")
     spec["engine"]["templates"] = str(example / spec["engine"]["templates"])
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
-    spec["experiment"]["pixel_size"] = "100 um"
+    spec["experiment"] |= {"pattern": "run01_view{view}.jpg", "pixel_size": "100 um"}
     # 254 grains. LIGGGHTS refuses a modulus below 5 MPa; the step grows by the root of 26.25 / 5.
     spec["coarse_graining"]["scale_factor"] = 2.5
     spec["powder"]["material"]["youngs_modulus"] = "5 MPa"

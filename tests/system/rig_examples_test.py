@@ -27,6 +27,8 @@ NUMBERS = {
 LENGTHS = {"lifted_tube": None, "tapped_density": "diameter", "column_collapse": "length",
            "tilting_box": "length", "draw_down": "length", "drum": "diameter",
            "orifice_flow": "diameter", "funnel_heap": "plate_diameter", "spreading": "length", "shear_cell": "diameter"}
+# Pages know numbers of an experiment, whatever rig gives them.
+REPORTED = ("lifted_tube", "shear_cell")
 
 
 def read(path):
@@ -100,6 +102,8 @@ awk -v d={length} -v mu={{{{ sliding_friction }}}} -v mr={{{{ rolling_friction }
     # Ten trials find a set within a few errors of what was measured.
     measured = result["experiments"][0]["numbers"][0]
     assert abs(number["mean"] - measured["value"]) < 4 * measured["standard_error"], (rig, number)
+    if rig not in REPORTED:
+        return
     assert "best of the trials" in run("compare", out)
     run("report", out)
     page = (out / "report/report.html").read_text()
