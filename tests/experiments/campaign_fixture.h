@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/files/file.h"
 #include "tests/experiments/fake_heap.h"
+#include "tests/experiments/finished_campaigns.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
@@ -23,20 +23,16 @@ class CampaignFixture : public ::testing::Test {
     BeginCampaign(spec, scratch_.path() / name);
     return scratch_.path() / name;
   }
-  // The same, finished. What several tests begin with is run once a program, and copied.
-  std::filesystem::path Finished(const std::string& more,
-                                 const FakeEngineOptions& engine = {}) const {
-    static std::list<FinishedCampaign> finished;
-    auto found = std::find_if(finished.begin(), finished.end(), [&](const FinishedCampaign& f) {
-      return f.more == more && f.engine == engine;
+  // The same, finished. What several tests begin with is run once a program, and copied; so its
+  // spec is not this test's to edit.
+  std::filesystem::path Finished(const std::string& more, const FakeEngineOptions& engine = {},
+                                 const std::string& name = "run") const {
+    static FinishedCampaigns<std::pair<std::string, FakeEngineOptions>> campaigns;
+    campaigns.Copy({more, engine}, scratch_.path() / name, [&](const std::filesystem::path& in) {
+      BeginCampaign(WriteFakeSpec(in / "in", more), in / "run");
+      EXPECT_EQ(RunFake(in / "run", engine), CampaignEnd::kFinished);
     });
-    if (found == finished.end()) {
-      const std::string purpose = "_finished" + std::to_string(finished.size());
-      found = finished.emplace(finished.end(), more, engine, purpose);
-    }
-    std::filesystem::copy(found->folder.path() / "run", scratch_.path() / "run",
-                          std::filesystem::copy_options::recursive);
-    return scratch_.path() / "run";
+    return scratch_.path() / name;
   }
   static std::vector<journal::TrialRecord> Trials(const std::filesystem::path& folder) {
     return journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Trials();
@@ -45,19 +41,6 @@ class CampaignFixture : public ::testing::Test {
     return ParseAnswer(base::ReadFile(folder / "result.json"));
   }
   ScratchFolder scratch_;
-
- private:
-  struct FinishedCampaign {
-    FinishedCampaign(const std::string& members, const FakeEngineOptions& options,
-                     const std::string& purpose)
-        : more(members), engine(options), folder(purpose) {
-      BeginCampaign(WriteFakeSpec(folder.path() / "in", more), folder.path() / "run");
-      RunFake(folder.path() / "run", engine);
-    }
-    std::string more;
-    FakeEngineOptions engine;
-    ScratchFolder folder;
-  };
 };
 
 }  // namespace talus::campaign

@@ -8,6 +8,8 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
+#include <cmath>
+
 #include "base/error.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/system/jumping_clock.h"
@@ -34,8 +36,7 @@ class CampaignFaults : public CampaignFixture {
     std::string recommended;
   };
   Calm RunCalm() {
-    const fs::path folder = Begin("calm");
-    RunFake(folder, {});
+    const fs::path folder = Finished(kSpec, {}, "calm");
     return {TrialTable(folder), Recommended(folder)};
   }
   // All of the result but what it cost, which no two runs share: recommended set, ranges,
@@ -59,8 +60,8 @@ TEST_F(CampaignFaults, KilledAtManyMoments) {
   int kills = 0;
   for (int session = 0; session < 200; ++session) {
     // From the opening of the journal to several trials on; longer and longer, so that a slow
-    // machine gets on too.
-    const double lifetime = random.Uniform(0.005, 0.05 + 0.01 * session);
+    // machine gets on too, by a factor, so that it soon does.
+    const double lifetime = random.Uniform(0.005, 0.05 * std::pow(1.25, session));
     const int end = WaitForExit(StartSession(folder, {.sleep = 0.01}, {.lifetime = lifetime}));
     if (end == static_cast<int>(CampaignEnd::kFinished)) break;
     ASSERT_EQ(end, -SIGKILL);

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kCommand = "python3 " TALUS_SOURCE_DIR "/tests/system/optimize_command.py ";
+// Without looking for the packages of the site: some hundreds of starts.
+const std::string kCommand = "python3 -S -E " TALUS_SOURCE_DIR "/tests/system/optimize_command.py ";
 
 constexpr const char* kUnitSquare = R"([
   {"name": "a", "low": 0, "high": 1}, {"name": "b", "low": 0, "high": 1},

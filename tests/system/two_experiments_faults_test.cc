@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/files/file.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/page/page.h"
@@ -30,14 +32,13 @@ class TwoExperimentsFaults : public TwoExperiments {
 };
 
 TEST_F(TwoExperimentsFaults, KilledAtManyMomentsItComesToTheSameEnd) {
-  const fs::path calm = Begin("calm");
-  RunFake(calm, {});
+  const fs::path calm = Finished("calm");
   const fs::path folder = Begin("killed");
   base::Random random(2, base::Stream("moments of death"));
   int kills = 0;
   for (int session = 0; session < 200; ++session) {
-    // Longer and longer, so that a slow machine gets on too.
-    const double lifetime = random.Uniform(0.005, 0.05 + 0.02 * session);
+    // Longer and longer, so that a slow machine gets on too, by a factor, so that it soon does.
+    const double lifetime = random.Uniform(0.005, 0.05 * std::pow(1.25, session));
     const int end = WaitForExit(StartSession(folder, {.sleep = 0.01}, {.lifetime = lifetime}));
     if (end == static_cast<int>(CampaignEnd::kFinished)) break;
     ASSERT_EQ(end, -SIGKILL);
@@ -79,8 +80,7 @@ TEST_F(TwoExperimentsFaults, AFailedTrialOfOneExperimentLeavesTheOtherTrialsAndT
 }
 
 TEST_F(TwoExperimentsFaults, KilledWorkersOfBothAreRunAgain) {
-  const fs::path calm = Begin("calm");
-  RunFake(calm, {});
+  const fs::path calm = Finished("calm");
   const fs::path folder = Begin("workers");
   EXPECT_EQ(RunFake(folder, {.die_once = true}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(folder), TrialTable(calm));

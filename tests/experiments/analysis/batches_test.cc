@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -146,7 +147,16 @@ class BatchesTest : public campaign::CampaignFixture {
   // A campaign that has met a heap of these, from which so much has fallen.
   fs::path Run(const std::string& name, double sliding, const std::string& fallen = "23 mg",
                const std::string& more = "") const {
-    const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / (name + "_in"),
+    static campaign::FinishedCampaigns<std::tuple<double, std::string, std::string>> campaigns;
+    campaigns.Copy({sliding, fallen, more}, scratch_.path() / name,
+                   [&](const fs::path& in) { Finish(in, sliding, fallen, more); });
+    return scratch_.path() / name;
+  }
+
+ private:
+  static void Finish(const fs::path& scratch, double sliding, const std::string& fallen,
+                     const std::string& more) {
+    const fs::path spec = campaign::WriteFakeSpec(scratch / "in",
                                                   R"(, "budget": {"simulations": 24},
         "confirm": {"candidates": 0}, "workers": 1)" + more);
     imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(sliding, 0.2, 12345));
@@ -159,9 +169,8 @@ class BatchesTest : public campaign::CampaignFixture {
                 fallen + R"("}, )");
     replace(R"("10 mm"}},)", R"("10 mm"}}],)");
     std::ofstream(spec) << text;
-    campaign::BeginCampaign(spec, scratch_.path() / name);
-    campaign::RunFake(scratch_.path() / name, {});
-    return scratch_.path() / name;
+    campaign::BeginCampaign(spec, scratch / "run");
+    EXPECT_EQ(campaign::RunFake(scratch / "run", {}), campaign::CampaignEnd::kFinished);
   }
 };
 

@@ -15,6 +15,7 @@
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/journal/objective.h"
+#include "tests/experiments/finished_campaigns.h"
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
@@ -41,8 +42,15 @@ std::string CompareText(const fs::path& folder, const std::string& experiment = 
 // Two bulk tests that give a number each and no image.
 class NumbersAlone : public TwoExperiments {
  protected:
-  fs::path BeginNumbers() const {
-    const fs::path in = scratch_.path() / "in";
+  fs::path FinishedNumbers() const {
+    static FinishedCampaigns<std::string> campaigns;
+    campaigns.Copy("numbers", scratch_.path() / "run", RunNumbers);
+    return scratch_.path() / "run";
+  }
+
+ private:
+  static void RunNumbers(const fs::path& scratch) {
+    const fs::path in = scratch / "in";
     fs::create_directories(in);
     std::ofstream(in / "spec.json") << R"({"name": "numbers", "experiments": [
         {"name": "balance", "mass_fallen": {"value": "23 mg", "sd": "1 mg"}},
@@ -54,14 +62,13 @@ class NumbersAlone : public TwoExperiments {
       "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
                      "rolling_friction": {"min": 0.05, "max": 0.5}},
       "budget": {"simulations": 24}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1})";
-    BeginCampaign(in / "spec.json", scratch_.path() / "run", {});
-    return scratch_.path() / "run";
+    BeginCampaign(in / "spec.json", scratch / "run", {});
+    EXPECT_EQ(RunFake(scratch / "run", {}), CampaignEnd::kFinished);
   }
 };
 
 TEST_F(NumbersAlone, ArePredictedAndMeasuredSideBySideOnAPageWithoutPictures) {
-  const fs::path folder = BeginNumbers();
-  RunFake(folder, {});
+  const fs::path folder = FinishedNumbers();
   const analysis::ReportData data = DataOf(folder);
   EXPECT_TRUE(data.outlines.empty());
   EXPECT_TRUE(data.pictures.empty());
@@ -90,8 +97,7 @@ TEST_F(NumbersAlone, ArePredictedAndMeasuredSideBySideOnAPageWithoutPictures) {
 }
 
 TEST_F(NumbersAlone, AreComparedByTheirDistanceFromWhatWasMeasured) {
-  const fs::path folder = BeginNumbers();
-  RunFake(folder, {});
+  const fs::path folder = FinishedNumbers();
   EXPECT_THAT(CompareText(folder), HasSubstr("Mass fallen"));
   EXPECT_THAT(CompareText(folder), HasSubstr("23 ± 1 mg"));
   EXPECT_THAT(CompareText(folder), Not(HasSubstr("SAD")));
@@ -108,8 +114,7 @@ TEST_F(NumbersAlone, AreComparedByTheirDistanceFromWhatWasMeasured) {
 // The drawn heap's top follows sliding friction and its slope rolling friction: an angle sees one
 // of the two, the whole heap both.
 TEST_F(TwoExperiments, AnAngleOfReposeKnowsLessThanTheWholeHeap) {
-  const fs::path folder = Begin("run");
-  RunFake(folder, {});
+  const fs::path folder = Finished("run");
   const analysis::ReportData data = DataOf(folder, "heap");
   const auto& knowledge = data.evidence.knowledge;
   ASSERT_GE(knowledge.size(), 2u);
@@ -133,8 +138,7 @@ TEST_F(TwoExperiments, AnAngleOfReposeKnowsLessThanTheWholeHeap) {
 // Where every set stands as a column, no trial has an angle: nothing is known by it, and that is
 // said.
 TEST_F(TwoExperiments, AnAngleThatNoTrialDefinesKnowsNothing) {
-  const fs::path folder = Begin("run");
-  RunFake(folder, {});
+  const fs::path folder = Finished("run");
   JointView view = ReadJointView(folder);
   const std::string angle(journal::InfoOf(journal::Objective::kAor1).metric);
   for (journal::TrialRecord& trial : view.trials) {
@@ -146,8 +150,7 @@ TEST_F(TwoExperiments, AnAngleThatNoTrialDefinesKnowsNothing) {
 }
 
 TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
-  const fs::path folder = Begin("run");
-  RunFake(folder, {});
+  const fs::path folder = Finished("run");
   EXPECT_THAT(CompareText(folder), HasSubstr("best by SAD"));
   EXPECT_THAT(CompareText(folder), Not(HasSubstr("Mass fallen")));  // not measured by this one
   EXPECT_THAT(CompareText(folder, "fast lift"), HasSubstr("23 ± 1 mg"));
@@ -182,8 +185,7 @@ TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
 
 // The page draws what the verdict states; both are of the model that is asked again.
 TEST_F(TwoExperiments, TheDrawnRegionIsAsLargeAsTheVerdictSays) {
-  const fs::path folder = Begin("run");
-  RunFake(folder, {});
+  const fs::path folder = Finished("run");
   const analysis::ReportData data = DataOf(folder);
   const double stated = data.evidence.answer->posterior->region_volume;
   // Kernels round the draws made 1.5 to 3 times the region. Importance sampling knows the volume to

@@ -19,16 +19,16 @@ namespace add_experiment_test {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
+constexpr const char* kOne = R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 16}, "confirm": {"candidates": 1, "replicates": 2},
+      "workers": 1)";
+
 class AddExperimentTest : public CampaignFixture {
  protected:
   // A campaign with one experiment that has ended.
-  fs::path Ended(const std::string& name = "run") const {
-    const fs::path folder = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
-      "budget": {"simulations": 16}, "confirm": {"candidates": 1, "replicates": 2},
-      "workers": 1)",
-                                  name);
-    RunFake(folder, {});
-    return folder;
+  fs::path Ended() const {
+    WriteFakeSpec(scratch_.path() / "run_in", kOne);
+    return Finished(kOne);
   }
   static CampaignSpec LoadSpec(const fs::path& folder) {
     return ParseSpecText(
@@ -74,7 +74,8 @@ TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
 
 // The spec's file does not know of what the campaign was given since.
 TEST_F(AddExperimentTest, ASpecThatIsChangedLaterLeavesItThere) {
-  const fs::path folder = Ended();
+  const fs::path folder = Begin(kOne);
+  RunFake(folder, {});
   Add(folder, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 0.35});
   const CampaignSpec added = LoadSpec(folder);
   const fs::path file =

@@ -15,15 +15,12 @@ namespace add_parameter_test {
 
 using ::testing::HasSubstr;
 
+// Heaps; the drawn ones do not depend on the restitution.
+constexpr const char* kHeaps = R"(, "budget": {"simulations": 20}, "workers": 1,
+    "confirm": {"candidates": 1, "replicates": 2}, "coarse_graining": {"scale_factor": 2})";
+
 class AddedParameters : public CampaignFixture {
  protected:
-  // Heaps; the drawn ones do not depend on the restitution.
-  std::filesystem::path Finished() const {
-    const auto folder = Begin(R"(, "budget": {"simulations": 20}, "workers": 1,
-        "confirm": {"candidates": 1, "replicates": 2}, "coarse_graining": {"scale_factor": 2})");
-    EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
-    return folder;
-  }
   std::string ErrorOf(const std::filesystem::path& folder, const std::string& search) const {
     Console console(folder / "campaign.log", Console::Output::kQuiet);
     ResumeOptions options;
@@ -40,7 +37,7 @@ ResumeOptions Search(const std::string& text) {
 
 // The folder's `material` leaves the restitution at its default.
 TEST_F(AddedParameters, LeaveTheTrialsWhereTheyWere) {
-  const auto folder = Finished();
+  const auto folder = Finished(kHeaps);
   const auto before = Trials(folder);
   const double restitution = engine::Material().restitution;
   ASSERT_EQ(RunFake(folder, {}, Search("restitution=0.3..0.95")), CampaignEnd::kFinished);
@@ -72,7 +69,8 @@ TEST_F(AddedParameters, LeaveTheTrialsWhereTheyWere) {
 
 // An edited budget must not lose what the command line has added, nor a journal that is made anew.
 TEST_F(AddedParameters, OutliveAnEditedSpecAndALostJournal) {
-  const auto folder = Finished();
+  const auto folder = Begin(std::string(kHeaps) + R"(, "strategy": {"kind": "sobol"})");
+  ASSERT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ASSERT_EQ(RunFake(folder, {}, Search("restitution=0.3..0.95")), CampaignEnd::kFinished);
   const auto spec = scratch_.path() / "run_in" / "spec.json";
   std::string text = base::ReadFile(spec);
@@ -87,7 +85,7 @@ TEST_F(AddedParameters, OutliveAnEditedSpecAndALostJournal) {
 }
 
 TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
-  const auto folder = Finished();
+  const auto folder = Finished(kHeaps);
   const std::string table = TrialTable(folder);
   EXPECT_THAT(ErrorOf(folder, "sliding_friction=0.1..0.9"), HasSubstr("is searched already"));
   EXPECT_THAT(ErrorOf(folder, "restitution"), HasSubstr("write NAME=LOW..HIGH"));

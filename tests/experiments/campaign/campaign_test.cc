@@ -116,8 +116,7 @@ TEST_F(CampaignTest, ConsideringTheRecommendedSetAgreesWithTheResultToTheDigit) 
 }
 
 TEST_F(CampaignTest, TrialsEndedFromOutsideAreRunAgainAsTheyWere) {
-  const fs::path calm = Begin(kSmall, "calm");
-  RunFake(calm, {});
+  const fs::path calm = Finished(kSmall, {}, "calm");
   const fs::path disturbed = Begin(kSmall, "disturbed");
   EXPECT_EQ(RunFake(disturbed, {.die_once = true}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(disturbed), TrialTable(calm));
@@ -143,8 +142,7 @@ TEST_F(CampaignTest, FailuresAreRecordedAndTheSearchGoesOn) {
 TEST_F(CampaignTest, AFailedTrialIsTriedOnceMoreWithAnotherSeedIfTheSpecSaysSo) {
   const fs::path folder = Begin(std::string(kSmall) + R"(, "retry_failed": true)");
   EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFinished);
-  const fs::path other = Begin(kSmall, "other");
-  RunFake(other, {});
+  const fs::path other = Finished(kSmall, {}, "other");
   const auto retried = Trials(folder);
   const auto calm = Trials(other);
   for (std::size_t i = 0; i < 12; ++i) {
@@ -184,8 +182,7 @@ TEST_F(CampaignTest, WhereEveryTrialHasFailedResumingRunsThemAgain) {
   EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFailed);
   const auto failed = Trials(folder);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
-  const fs::path other = Begin(kSmall, "other");
-  RunFake(other, {});
+  const fs::path other = Finished(kSmall, {}, "other");
   const auto mended = Trials(folder), calm = Trials(other);
   ASSERT_EQ(mended.size(), calm.size());
   ASSERT_GE(failed.size(), 8u);
@@ -198,8 +195,7 @@ TEST_F(CampaignTest, WhereEveryTrialHasFailedResumingRunsThemAgain) {
 }
 
 TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
-  const fs::path folder = Begin(kSmall);
-  RunFake(folder, {});
+  const fs::path folder = Finished(kSmall);
   EXPECT_EQ(RunFake(folder, {}, {.spec = {}, .add_simulations = 5, .objective = {}}),
             CampaignEnd::kFinished);
   std::string longer = kSmall;
@@ -278,8 +274,7 @@ TEST_F(CampaignTest, FilesOfOthersAreNotOverwritten) {
   EXPECT_THAT(ErrorOf([&] { Begin(kSmall, "mine"); }), HasSubstr("holds other files"));
   EXPECT_EQ(std::distance(fs::recursive_directory_iterator(folder), {}), 3);
   // A campaign that has lost its journal is one.
-  const fs::path other = Begin(kSmall, "other");
-  RunFake(other, {});
+  const fs::path other = Finished(kSmall, {}, "other");
   const std::string result = base::ReadFile(other / "result.json");
   fs::remove(journal::JournalPath(other));
   EXPECT_THAT(ErrorOf([&] { Begin(kSmall, "other"); }), HasSubstr("holds a campaign already"));
@@ -317,8 +312,7 @@ TEST_F(CampaignTest, NothingIsBegunTwiceOrWithAnExperimentThatCannotBeUsed) {
 }
 
 TEST_F(CampaignTest, ExportsOneLineATrialWithUnitsInTheHead) {
-  const fs::path folder = Begin(kSmall);
-  RunFake(folder, {});
+  const fs::path folder = Finished(kSmall);
   analysis::ExportCampaign(folder, folder / "export");
   const std::string csv = base::ReadFile(folder / "export" / "trials.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 15);

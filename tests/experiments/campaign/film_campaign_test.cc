@@ -104,8 +104,8 @@ TEST_F(FilmCampaign, AnInterruptedOneGoesOnWithTheSameBits) {
   const char* few = R"(, "budget": {"simulations": 16}, "confirm": {"candidates": 0})";
   const fs::path whole = BeginFilm("whole", 2, true, few);
   RunFake(whole, {.film_grows = true});
-  const fs::path cut = BeginFilm("cut", 2, true, few);
-  RunFake(cut, {.film_grows = true});
+  const fs::path cut = scratch_.path() / "cut";
+  fs::copy(whole, cut, fs::copy_options::recursive);
   journal::Database(journal::JournalPath(cut), journal::Database::Mode::kReadWrite)
       .Execute(
           "DELETE FROM profiles WHERE trial > 7; DELETE FROM metrics WHERE trial > 7;"
@@ -128,7 +128,9 @@ TEST_F(FilmCampaign, AJournalThatIsLostIsMadeAnew) {
 }
 
 // One image has one map, of what the model predicts where nothing is confirmed.
-TEST_F(CampaignFixture, WhatRemainsIsPredictedWhereNothingIsConfirmed) {
+using OnePicture = CampaignFixture;
+
+TEST_F(OnePicture, WhatRemainsIsPredictedWhereNothingIsConfirmed) {
   const fs::path folder =
       Begin(R"(, "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)");
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);

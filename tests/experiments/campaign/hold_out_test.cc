@@ -22,8 +22,7 @@ using ::testing::HasSubstr;
 class HoldingOut : public TwoExperiments {};
 
 TEST_F(HoldingOut, TheOthersPredictOneThatIsHeldOut) {
-  const auto folder = Begin("run");
-  RunFake(folder, {});
+  const auto folder = Finished("run", "23 mg", 40);
   const JointView view = ReadJointView(folder);
   const HeldOut fast = HoldOut(view, "fast lift");
   EXPECT_EQ(fast.others.experiments, std::vector<std::string>{"heap"});
@@ -59,8 +58,7 @@ TEST_F(HoldingOut, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
 }
 
 TEST_F(HoldingOut, TestsThatAgreeRaiseNoAlarm) {
-  const auto folder = Begin("run", "23 mg", 40);
-  RunFake(folder, {});
+  const auto folder = Finished("run", "23 mg", 40);
   const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
   EXPECT_TRUE(result.posterior.value().alone.empty()) << AnswerSummary(result, "runs/heap");
   EXPECT_LT(result.posterior->tension, 2);
@@ -121,7 +119,9 @@ TEST_F(HoldingOut, WhatCannotBeHeldOutIsSaid) {
   }
 }
 
-TEST_F(CampaignFixture, ACampaignWithOneExperimentHasNothingToHoldOut) {
+using HoldingOneOut = CampaignFixture;
+
+TEST_F(HoldingOneOut, ACampaignWithOneExperimentHasNothingToHoldOut) {
   const auto folder = Begin(R"(, "budget": {"simulations": 8}, "workers": 1)");
   RunFake(folder, {});
   const JointView view = ReadJointView(folder);

@@ -36,8 +36,7 @@ constexpr const char* kTwoSizes = R"(,
 using JointCampaign = CampaignFixture;
 
 TEST_F(JointCampaign, TrialsHaveTheScaleFactorsThatTheStrategyAsksForAndConfirmAtTheSmallest) {
-  const fs::path folder = Begin(kTwoSizes);
-  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const fs::path folder = Finished(kTwoSizes);
   const auto trials = Trials(folder);
   ASSERT_EQ(trials.size(), 16u + 2u);
   std::set<double> factors;
@@ -56,10 +55,8 @@ TEST_F(JointCampaign, TrialsHaveTheScaleFactorsThatTheStrategyAsksForAndConfirmA
 }
 
 TEST_F(JointCampaign, AnInterruptedOneGoesOnAsIfNothingHadHappened) {
-  const fs::path whole = Begin(kTwoSizes, "whole");
-  RunFake(whole, {});
-  const fs::path cut = Begin(kTwoSizes, "cut");
-  RunFake(cut, {});
+  const fs::path whole = Finished(kTwoSizes, {}, "whole");
+  const fs::path cut = Finished(kTwoSizes, {}, "cut");
   journal::Database(journal::JournalPath(cut), journal::Database::Mode::kReadWrite)
       .Execute(
           "DELETE FROM profiles WHERE trial > 7; DELETE FROM metrics WHERE trial > 7;"
@@ -71,8 +68,7 @@ TEST_F(JointCampaign, AnInterruptedOneGoesOnAsIfNothingHadHappened) {
 // A later version may recommend another set after the same search. What confirmed the former one
 // must not be read as confirming this one.
 TEST_F(JointCampaign, ASetIsConfirmedByTrialsOfItsOwn) {
-  const fs::path folder = Begin(kTwoSizes);
-  RunFake(folder, {});
+  const fs::path folder = Finished(kTwoSizes);
   {
     journal::Database database(journal::JournalPath(folder), journal::Database::Mode::kReadWrite);
     database.Execute("UPDATE points SET unit_value = 0.5 * unit_value WHERE trial > 16");
@@ -125,8 +121,7 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
 }
 
 TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
-  const fs::path folder = Begin(kTwoSizes);
-  RunFake(folder, {});
+  const fs::path folder = Finished(kTwoSizes);
   const Answer result = Result(folder);
   ASSERT_TRUE(result.posterior.has_value());
   const ResultPosterior& posterior = *result.posterior;
@@ -153,8 +148,7 @@ TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
 
 TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
   for (const char* spec : {kTwoSizes, R"(, "budget": {"simulations": 20}, "workers": 1)"}) {
-    const fs::path folder = Begin(spec, spec == kTwoSizes ? "two" : "one");
-    RunFake(folder, {});
+    const fs::path folder = Finished(spec, {}, spec == kTwoSizes ? "two" : "one");
     const auto at = [&](const char* sliding, const char* rolling) {
       return ConsiderSet(folder, {{"sliding_friction", sliding}, {"rolling_friction", rolling}});
     };
@@ -190,8 +184,7 @@ TEST_F(JointCampaign, ConsiderRefusesWhatIsNoSetOfTheCampaign) {
 }
 
 TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
-  const fs::path folder = Begin(kTwoSizes);  // 10 mm over 0.8 mm
-  RunFake(folder, {});
+  const fs::path folder = Finished(kTwoSizes);  // 10 mm over 0.8 mm
   const Answer result = Result(folder);
   std::vector<Alarm> found;
   std::ranges::copy_if(result.warnings, std::back_inserter(found),
@@ -206,8 +199,7 @@ TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
 }
 
 TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
-  const fs::path folder = Begin("run");
-  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const fs::path folder = Finished("run");
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const auto trials = journal.Trials();
   ASSERT_EQ(trials.size(), 20u + 4u);
@@ -244,8 +236,7 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
 }
 
 TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
-  const fs::path folder = Begin("run");
-  RunFake(folder, {});
+  const fs::path folder = Finished("run");
   const std::string table = TrialTable(folder);
   fs::resize_file(journal::JournalPath(folder), 5000);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);

@@ -29,11 +29,7 @@ class ReuseTest : public CampaignFixture {
   fs::path path(const std::string& name) const { return scratch_.path() / name; }
 
   // A campaign that has ended.
-  fs::path Ended(const std::string& name = "former") const {
-    const fs::path folder = Begin(kFormer, name);
-    RunFake(folder, {});
-    return folder;
-  }
+  fs::path Ended() const { return Finished(kFormer, {}, "former"); }
   fs::path WriteSpec(const std::string& name, const std::string& more = kNew) const {
     return WriteFakeSpec(path(name + "_in"), more);
   }

@@ -116,15 +116,20 @@ TEST(ShearCell, APouredOneGoesOnFromACheckpointWithTheSameBits) {
   c.filling.kind = FillingKind::kPour;
   c.rig.shear_cell.stresses = {1e3};
   c.rig.shear_cell.travel = 0.005;
-  const auto whole = Ran(c);
-  auto first = MakeRig(c);
-  while (first->phase_name() != "shearing 1" ||
-         first->simulation().time() < whole->simulation().time() - 0.1) {
-    first->Advance();
-  }
-  auto second = RestoreRig(c, first->StateLine(),
-                           engine::Simulation::Restore(first->simulation().Checkpoint()));
-  while (second->Advance()) {
+  base::Problems problems;
+  ValidateCase(c, problems);
+  EXPECT_TRUE(problems.empty());
+  auto whole = MakeRig(c);
+  while (whole->phase_name() != "shearing 1") ASSERT_TRUE(whole->Advance());
+  const double middle =
+      whole->simulation().time() + 0.5 * c.rig.shear_cell.travel.value() / c.rig.shear_cell.speed;
+  while (whole->simulation().time() < middle) ASSERT_TRUE(whole->Advance());
+  ASSERT_EQ(whole->phase_name(), "shearing 1");
+  auto second = RestoreRig(c, whole->StateLine(),
+                           engine::Simulation::Restore(whole->simulation().Checkpoint()));
+  for (Rig* rig : {whole.get(), second.get()}) {
+    while (rig->Advance()) {
+    }
   }
   EXPECT_EQ(ResultOf(*second)["observables"], ResultOf(*whole)["observables"]);
   EXPECT_EQ(second->simulation().step(), whole->simulation().step());
