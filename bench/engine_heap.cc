@@ -86,7 +86,8 @@ void Run(std::map<std::string, std::string> options) {
 int main(int argc, char** argv) {
   try {
     if (argc % 2 == 0) {
-      std::fputs("engine_heap [--spheres N] [--ratio D/d] … (see the head of the source)\n", stderr);
+      std::fputs("engine_heap [--spheres N] [--ratio D/d] … (see the head of the source)\n",
+                 stderr);
       return base::kExitBadInput;
     }
     std::map<std::string, std::string> options;

@@ -135,7 +135,7 @@ std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
 std::string StateText(const journal::ProgressRecord& progress, bool alive,
                       const std::vector<journal::TrialRecord>& trials) {
   if (progress.state == "running" && !alive) {
-    return "ended without a word; `talus resume DIR` goes on";
+    return std::string(kEndedSilently) + "; `talus resume DIR` goes on";
   }
   if (progress.state != "finished" || !progress.result_json.empty()) return progress.state;
   return HaveFirstAllFailed(trials) ? "ended without a result; mend the cause, and `talus resume "
@@ -143,7 +143,21 @@ std::string StateText(const journal::ProgressRecord& progress, bool alive,
                                     : "ended without a result";
 }
 
+// Of a campaign whose goal is this one so far.
+BudgetUse UseWith(const std::optional<GoalState>& goal, const CampaignSpec& spec,
+                  const std::vector<journal::TrialRecord>& trials, double elapsed) {
+  const auto running =
+      std::ranges::count(trials, journal::TrialStatus::kRunning, &journal::TrialRecord::status);
+  return UseOf(spec, trials, elapsed, AtATime(spec, static_cast<int>(running)),
+               goal ? goal->core_time : 0);
+}
+
 }  // namespace
+
+BudgetUse UseSoFar(const std::filesystem::path& folder, const CampaignSpec& spec,
+                   const std::vector<journal::TrialRecord>& trials, double elapsed) {
+  return UseWith(LastGoal(folder, spec), spec, trials, elapsed);
+}
 
 std::string StatusText(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
@@ -183,8 +197,7 @@ std::string StatusText(const std::filesystem::path& root) {
   }
   text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
   const std::optional<GoalState> goal = LastGoal(folder.root, spec);
-  const BudgetUse use = UseOf(spec, trials, progress.elapsed_s, AtATime(spec, counts.running),
-                              goal ? goal->core_time : 0);
+  const BudgetUse use = UseWith(goal, spec, trials, progress.elapsed_s);
   if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
   if (!answer && progress.state != "finished" && use.seconds_left) {

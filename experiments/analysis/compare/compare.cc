@@ -107,6 +107,18 @@ std::vector<double> ToValues(const Evidence& evidence, const Eigen::VectorXd& po
   return values;
 }
 
+// A set is named only where the process knows it from others: to the scatter of one simulation, and
+// not one of a whole surface on which a number is met.
+std::string WhyWithheld(const ModelFinding& finding, bool is_distance, double noise_sd) {
+  constexpr double kMet = 0.05;  // of the scatter
+  const double scatter = std::max(noise_sd, finding.model.noise_sd());
+  if (finding.there.sd > scatter) return "its model is less sure there than one simulation";
+  if (is_distance && finding.point.size() > 1 && finding.there.objective <= kMet * scatter) {
+    return "a whole surface of sets meets it";
+  }
+  return "";
+}
+
 ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
                            const Eigen::VectorXd& start, double margin) {
   ModelFinding finding{.model = std::move(model), .point = {}, .values = {}, .there = {}};
@@ -119,6 +131,7 @@ ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
     return p.objective <= limit;
   });
   finding.tied_volume = static_cast<double>(tied) / kVolumeSample;
+  finding.there.objective = std::max(0.0, finding.there.objective);
   return finding;
 }
 
@@ -156,7 +169,11 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
     if (std::isnan(finding.noise_sd)) finding.noise_sd = model->noise_sd();
   }
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
-  if (model) finding.from_model = FindFromModel(evidence, *model, start, finding.margin());
+  if (model) {
+    finding.from_model = FindFromModel(evidence, *model, start, finding.margin());
+    finding.from_model->withheld =
+        WhyWithheld(*finding.from_model, info.is_distance, finding.noise_sd);
+  }
   return finding;
 }
 

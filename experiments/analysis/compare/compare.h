@@ -41,6 +41,7 @@ struct ModelFinding {
   std::vector<double> values;  // SI
   ObjectivePrediction there;
   double tied_volume = 0;  // of the points whose prediction ties with that
+  std::string withheld{};  // why the set says nothing; empty when it does
 };
 
 struct ObjectiveFinding {

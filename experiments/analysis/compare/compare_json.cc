@@ -36,7 +36,9 @@ Json TrialsJson(const Evidence& evidence, const TrialFinding& finding) {
 }
 
 Json ModelJson(const Evidence& evidence, const ModelFinding& finding) {
-  return {{"values", ValuesJson(evidence, finding.values)},
+  const bool is_known = finding.withheld.empty();
+  return {{"values", is_known ? ValuesJson(evidence, finding.values) : Json(nullptr)},
+          {"withheld", is_known ? Json(nullptr) : Json(finding.withheld)},
           {"quantity", Number(finding.there.quantity)},
           {"quantity_sd", Number(finding.there.sd)},
           {"objective", Number(finding.there.objective)},

@@ -100,14 +100,19 @@ std::string FromTrials(const ComparedCampaign& compared) {
 
 std::string FromModel(const ComparedCampaign& compared) {
   std::vector<Row> rows{Head(compared.evidence, "best by a model", {})};
+  std::string withheld;
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.from_model) continue;
     const ModelFinding& model = *f.from_model;
     const std::string measured =
         Shown(f, model.there.quantity) + " ± " + Shown(f, model.there.sd, 2);
     rows.push_back(SetRow(f, measured, model.values));
+    if (model.withheld.empty()) continue;
+    std::fill_n(rows.back().end() - static_cast<std::ptrdiff_t>(model.values.size()),
+                model.values.size(), "-");
+    withheld += "  " + f.info.title + " has no set by a model: " + model.withheld + "\n";
   }
-  return rows.size() > 1 ? Aligned(rows) + "\n" : "";
+  return rows.size() > 1 ? Aligned(rows) + withheld + "\n" : "";
 }
 
 std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f) {

@@ -102,14 +102,14 @@ struct StageTime {
 struct Evidence {
   std::string name;
   std::filesystem::path folder;  // of the campaign
-  std::string state;             // "running", "finished", "interrupted"
+  std::string state;             // "running", "finished", "interrupted", campaign::kEndedSilently
   std::string stop_reason;       // empty while running
   std::size_t experiment = 0;    // whose trials these are, of the campaign's
   double scale_factor = 1;       // of the search
   std::string objective;         // key of one of kObjectives: the latest search's
   std::string strategy;          // its kind
   int max_simulations = 0;       // the budget; 0: none
-  int workers = 0;               // trials that run at a time; 0: all that are under way
+  double seconds_left = kUndefined;  // at most, while it runs; undefined before a trial has ended
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
   std::vector<TrialEvidence> trials;

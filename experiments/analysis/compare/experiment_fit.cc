@@ -73,7 +73,7 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
   const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, record.name);
   if (confirmed != nullptr && confirmed->profile_sad_mm2) {
     row.is_confirmed = true;
-    row.simulated = SimulatedShape(*confirmed);
+    row.simulated = row.confirmed = SimulatedShape(*confirmed);
     row.judgement = ShapeJudgement(fit, record.num_heaps);
     return row;
   }
@@ -123,9 +123,9 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   }
   row.is_confirmed = confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
   if (row.is_confirmed) {
-    row.simulated = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +
-                    base::Counted(confirmed->scalars[index].num_trials, "simulation") +
-                    (row.simulated.empty() ? "" : "; " + row.simulated);
+    row.confirmed = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +
+                    base::Counted(confirmed->scalars[index].num_trials, "simulation");
+    row.simulated = row.confirmed + (row.simulated.empty() ? "" : "; " + row.simulated);
   }
   if (std::isfinite(fit.off)) {
     const bool has_error =
@@ -140,7 +140,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
 }
 
 std::string NameOf(const FitRow& row) {
-  return "the " + row.what + " of \"" + row.experiment + "\"";
+  return "the " + row.what + " of \"" + row.experiment + "\"" + (row.held_out ? ", held out" : "");
 }
 
 // "The mass of "heap" and …" of the rows that are so; empty without.

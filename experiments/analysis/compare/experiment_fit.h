@@ -19,6 +19,7 @@ struct FitRow {
   std::string judgement{};  // "0.66 times as far as the runs are from each other"
   campaign::Meets meets = campaign::Meets::kUnknown;
   double implausibility = std::numeric_limits<double>::quiet_NaN();  // of the experiment
+  std::string confirmed{};    // the confirming part of `simulated`
   bool is_confirmed = false;  // simulated again with fresh seeds
   bool held_out = false;      // the answer is made without it
 };

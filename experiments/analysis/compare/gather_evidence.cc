@@ -16,8 +16,9 @@
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/answer.h"
-#include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/status.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
@@ -144,16 +145,12 @@ void AddTimes(Evidence& evidence, double elapsed) {
                      {"their processor time", cpu}};
 }
 
-void AddSpec(Evidence& evidence, const journal::CampaignRecord& record,
-             const campaign::CampaignSpec& understood) {
+void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
   evidence.spec = record.spec_text;
   evidence.spec_json = record.spec_json;
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
-  if (understood.runner.kind == campaign::RunnerKind::kLocal) {
-    evidence.workers = campaign::LocalWorkers(understood, campaign::NumCores());
-  }
 }
 
 // "Linux 6.1.0 x86_64, 8 processors"
@@ -248,6 +245,7 @@ std::shared_ptr<journal::Journal> OpenJournal(const std::filesystem::path& campa
 Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment) {
   const auto journal = OpenJournal(campaign);
   const journal::CampaignRecord record = journal->Campaign();
+  const bool worked_on = campaign::IsWorkedOn(campaign);  // asked before what it has written
   const journal::ProgressRecord progress = journal->Progress();
 
   Evidence evidence;
@@ -257,7 +255,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
   const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
-  AddSpec(evidence, record, spec);
+  AddSpec(evidence, record);
   for (const journal::ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
@@ -266,7 +264,13 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   }
   evidence.experiment = ExperimentNamed(record, experiment);
   const journal::ExperimentRecord& shown = record.experiments.at(evidence.experiment);
-  AddTrialsOf(shown, journal->Trials(), evidence);
+  const std::vector<journal::TrialRecord> trials = journal->Trials();
+  AddTrialsOf(shown, trials, evidence);
+  if (evidence.state == "running" && !worked_on) evidence.state = campaign::kEndedSilently;
+  if (evidence.state == "running") {
+    const auto left = campaign::UseSoFar(campaign, spec, trials, progress.elapsed_s).seconds_left;
+    evidence.seconds_left = left.value_or(kUndefined);
+  }
   AddReference(shown, evidence);
   AddAnswer(progress.result_json, record, evidence);
   MarkNuisances(spec, evidence);

@@ -77,7 +77,8 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
     p.quantity =
         info_.is_distance ? all.mean(i) : std::max(0.0, all.mean(i));  // a distance is not less
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
-    p.objective = info_.Value(p.quantity, reference_);
+    // Not clamped: where many points fall below 0, the least of them is still one.
+    p.objective = info_.Value(all.mean(i), reference_);
     const double least = info_.Value(p.quantity - kNinetyPercent * p.sd, reference_);
     const double most = info_.Value(p.quantity + kNinetyPercent * p.sd, reference_);
     const bool spans_reference =

@@ -23,7 +23,7 @@ struct ModelPoint {
 struct ObjectivePrediction {
   double quantity = 0;
   double sd = 0;         // of the mean quantity
-  double objective = 0;  // of the mean quantity
+  double objective = 0;  // of the mean quantity, which a process may put below 0
   double low = 0;        // 90 % band of the objective
   double high = 0;
 };

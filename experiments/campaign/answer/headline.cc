@@ -7,6 +7,7 @@
 #include "base/text/plain_number.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/nuisances.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -33,9 +34,28 @@ bool IsOpen(const Answer& answer, std::size_t i) {
          !(pair && (pair->first == i || pair->second == i));
 }
 
+std::string ShownUnitAfter(const ResultParameter& p) {
+  const std::string unit = rigs::ShownUnitOf(p.unit).text;
+  return unit.empty() ? "" : " " + unit;
+}
+
+std::string EndsText(const ResultParameter& p) {
+  return Short(p.credible_low) + " to " + Short(p.credible_high) + ShownUnitAfter(p);
+}
+
 std::string RangeText(const Told& told, std::size_t i) {
-  return told.names[i] + " in " + Short(told.at(i).credible_low) + " to " +
-         Short(told.at(i).credible_high);
+  return told.names[i] + " in " + EndsText(told.at(i));
+}
+
+// "(sliding friction 0.3, surface energy 0.002 J/m²)"
+std::string ToldSetText(const Told& told, const std::vector<double>& values) {
+  return "(" +
+         base::JoinedUpTo(values.size(), ", ",
+                          [&](std::size_t i) {
+                            return told.names[i] + " " + Short(values[i]) +
+                                   ShownUnitAfter(told.at(i));
+                          }) +
+         ")";
 }
 
 // The alarms that leave nothing to be said of ranges.
@@ -74,11 +94,25 @@ std::string KnownText(const Told& told) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < told.names.size(); ++i) {
     const ResultParameter& p = told.at(i);
-    if (p.Width() >= kWideRange) continue;
-    known.push_back(told.names[i] + " " + Short(p.value) + " (90 %: " + Short(p.credible_low) +
-                    " to " + Short(p.credible_high) + ")");
+    if (p.Width() >= kWideRange || IsKnownByPrior(p)) continue;
+    known.push_back(told.names[i] + " " + Short(p.value) + ShownUnitAfter(p) +
+                    " (90 %: " + EndsText(p) + ")");
   }
   return known.empty() ? "" : "They determine " + base::Listed(known) + ".";
+}
+
+// What was known beforehand is no finding.
+std::string PriorText(const Told& told) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < told.names.size(); ++i) {
+    const ResultParameter& p = told.at(i);
+    if (!IsKnownByPrior(p) || IsOpen(told.answer, i)) continue;
+    known.push_back(told.names[i] + " (" + p.prior->text + ")");
+  }
+  if (known.empty()) return "";
+  return "The measurements add nothing to what " +
+         std::string(known.size() == 1 ? "the prior says" : "the priors say") + " of " +
+         base::Listed(known) + ".";
 }
 
 std::string SeparateText(const Told& told) {
@@ -86,7 +120,7 @@ std::string SeparateText(const Told& told) {
   std::string text = "They allow " + std::to_string(branches.size()) + " separate answers";
   for (std::size_t b = 0; b < branches.size(); ++b) {
     text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the posterior round " +
-            BracketedSet(told.names, branches[b].values);
+            ToldSetText(told, branches[b].values);
   }
   return text;
 }
@@ -99,8 +133,8 @@ std::string CurveText(const Told& told) {
   std::string text =
       "They determine " + told.names[known] + " given " + told.names[given] + ", not both: ";
   if (sets.size() < 2) return text + RangeText(told, given) + ", " + RangeText(told, known);
-  return text + "sets from " + BracketedSet(told.names, sets.front()) + " to " +
-         BracketedSet(told.names, sets.back()) + " fit equally";
+  return text + "sets from " + ToldSetText(told, sets.front()) + " to " +
+         ToldSetText(told, sets.back()) + " fit equally";
 }
 
 std::string RegionText(const Told& told) {
@@ -160,7 +194,7 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
   const std::string miss = MissText(answer);
   std::vector<std::string> sentences{
       miss.empty() ? "Sets are found that fit every measurement." : miss,
-      OpenText(told, miss.empty()), KnownText(told)};
+      OpenText(told, miss.empty()), KnownText(told), PriorText(told)};
   // Sets that miss have no kind of fit.
   if (miss.empty()) {
     const std::string volume = Percent(answer.posterior->region_volume);

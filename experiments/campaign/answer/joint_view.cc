@@ -6,10 +6,25 @@
 
 #include "base/error.h"
 #include "base/text/joined.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/record/stored.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::campaign {
+namespace {
+
+// A search by another objective than the spec's has a result of that one.
+void TakeObjectiveOf(const std::string& result_json, CampaignSpec& spec) {
+  if (result_json.empty()) return;
+  const std::string of_result = ParseAnswer(result_json).objective;
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
+    if (of_result == info.ValueKey())
+      spec.objective = *base::EnumNamed<journal::Objective>(info.key);
+  }
+}
+
+}  // namespace
 
 int JointView::IndexOf(std::string_view name) const {
   const auto& all = record.experiments;
@@ -45,7 +60,8 @@ JointView ReadJointView(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
   journal::CampaignRecord record = journal.Campaign();
-  const CampaignSpec spec = ParseSpecText(record.spec_json);
+  CampaignSpec spec = ParseSpecText(record.spec_json);
+  TakeObjectiveOf(journal.Progress().result_json, spec);
   JointView view{.folder = folder,
                  .spec = spec,
                  .record = std::move(record),

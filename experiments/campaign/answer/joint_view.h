@@ -40,7 +40,8 @@ struct JointView {
   void Observe(const std::function<std::vector<float>(const journal::TrialRecord&)>& field);
 };
 
-// The campaign may be running.
+// The campaign may be running. Its spec has the objective that the result is of, which may be
+// another than the one it was started with.
 JointView ReadJointView(const std::filesystem::path& folder);
 
 // Told what the trials of these experiments say, and nothing of others.

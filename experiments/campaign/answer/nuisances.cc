@@ -1,7 +1,10 @@
 #include "experiments/campaign/answer/nuisances.h"
 
+#include <cmath>
+
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -21,13 +24,21 @@ bool Matters(const ResultParameter& nuisance) {
 
 std::string NuisanceText(const ResultParameter& p, const std::string& name) {
   const bool determined = p.Width() < kDetermined * PriorWidth(p);
-  const std::string unit = p.unit.empty() ? "" : " " + p.unit;
+  const std::string shown = rigs::ShownUnitOf(p.unit).text;
+  const std::string unit = shown.empty() ? "" : " " + shown;
   std::string text = name + ": " + (determined ? "determined, " : "not determined, ") +
                      base::ShortNumber(p.credible_low, 3) + " … " +
                      base::ShortNumber(p.credible_high, 3) + unit + ", ";
   if (!Matters(p)) return text + "does not matter";
   return text + "matters: measure it (the range of " + p.nuisance->of_range + " would be " +
          base::InPercent(p.nuisance->narrowing) + " % narrower)";
+}
+
+bool IsKnownByPrior(const ResultParameter& p) {
+  constexpr double kSameWidth = 0.9;  // of the prior's; joint ranges are wider than single ones
+  constexpr double kSameMean = 0.5;   // of the prior's standard deviation
+  if (!p.prior) return false;
+  return p.Width() >= kSameWidth * PriorWidth(p) && std::abs(p.prior->offset) <= kSameMean;
 }
 
 std::vector<std::size_t> AskedParameters(const Answer& answer) {

@@ -33,4 +33,7 @@ std::vector<T> OnlyThose(const std::vector<std::size_t>& indices, const std::vec
   return some;
 }
 
+// Whether the posterior is about the prior: what is stated of it was known beforehand.
+bool IsKnownByPrior(const ResultParameter& parameter);
+
 }  // namespace talus::campaign

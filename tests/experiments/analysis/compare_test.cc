@@ -154,6 +154,31 @@ TEST(CompareObjectives, LeavesOutTrialsAtAnotherScaleAndFailures) {
   EXPECT_THAT(Find(evidence, "sad").from_trials.best[0].trials, ElementsAre(2));
 }
 
+// Values that a process puts below 0 are no perfect sets, and its least is one point, not many.
+TEST(CompareObjectives, AModelNamesNoSetThatItDoesNotKnow) {
+  std::vector<Sample> samples;
+  for (int i = 0; i <= 12; ++i) samples.push_back({i / 12.0, std::abs(i - 5.5) / 3});
+  samples.push_back({0.5, 0.5 / 3 + 0.001});  // a repeat: the scatter is nearly nothing
+  const Evidence evidence = OneParameter("sad_mm2", samples);
+  const auto finding = Find(evidence, "sad");
+  ASSERT_TRUE(finding.from_model);
+  EXPECT_GE(finding.from_model->there.objective, 0);
+  EXPECT_NEAR(finding.from_model->values[0], 5.5 / 12, 0.05);
+}
+
+// One angle of two parameters and more is met along a curve: no set of it is named.
+TEST(CompareObjectives, AnAngleOfSeveralParametersNamesNoSet) {
+  const Evidence evidence = test::MakeSyntheticCampaign();
+  const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
+  const auto angle = std::ranges::find(
+      findings, "aor1", [](const ObjectiveFinding& finding) { return finding.info.key; });
+  ASSERT_TRUE(angle != findings.end() && angle->from_model);
+  EXPECT_NE(angle->from_model->withheld, "");
+  EXPECT_THAT(ComparisonText({evidence, findings}),
+              HasSubstr("AOR 1 has no set by a model: " + angle->from_model->withheld));
+  EXPECT_THAT(ComparisonJson({evidence, findings}), HasSubstr("\"values\": null"));
+}
+
 // Why profiles are compared at all: one angle fits many heaps.
 TEST(CompareObjectives, AnAngleOfReposeIsLessUniqueThanSad) {
   const Evidence evidence = test::MakeSyntheticCampaign();

@@ -16,6 +16,7 @@
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "optimizer/designs/r_sequence.h"
@@ -392,6 +393,51 @@ TEST(HeapBox, HoldsThePowderAndThePlateAndLittleMore) {
   EXPECT_LT(cut.pixels.size(), 0.75 * static_cast<double>(aehp.image.pixels.size()));
   const double plate = aehp.frame.plate_diameter / aehp.frame.pixel_size;
   EXPECT_GE(box.width, plate);
+}
+
+// Nobody works on the folder that a test has written.
+TEST(GatherEvidence, ACampaignThatWasKilledIsNotRunning) {
+  const auto folder = std::filesystem::temp_directory_path() / "talus_killed_campaign_test";
+  std::filesystem::remove_all(folder);
+  test::WriteSyntheticJournal(test::MakeSyntheticCampaign({.num_trials = 20, .concluded = false}),
+                              folder);
+  const Evidence evidence = GatherEvidence(folder, "");
+  EXPECT_EQ(evidence.state, "ended without a word");
+  EXPECT_TRUE(std::isnan(evidence.seconds_left));
+  std::filesystem::remove_all(folder);
+}
+
+// `talus compare --objective` leaves a result of another objective than the spec's.
+TEST(GatherEvidence, TheModelIsOfTheObjectiveThatTheResultIsOf) {
+  const auto folder = std::filesystem::temp_directory_path() / "talus_other_objective_test";
+  std::filesystem::remove_all(folder);
+  Evidence evidence = test::MakeSyntheticCampaign({.num_trials = 20});
+  ASSERT_EQ(evidence.objective, "sad");
+  evidence.answer->objective = "aor2_difference_deg";
+  test::WriteSyntheticJournal(evidence, folder);
+  EXPECT_EQ(campaign::ReadJointView(folder).spec.objective, journal::Objective::kAor2);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Methods, SayWhatWasConfirmedAndCountWhatFailedAsChosen) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.answer->parameters[0].prior = {.text = "0.3 ± 0.1"};
+  evidence.answer->confirmed.resize(1);
+  evidence.fit = {{.experiment = "drum",
+                   .what = "angle",
+                   .simulated = "30.88° as the mean of 2 simulations; predicted 31.04 ± 0.2°",
+                   .confirmed = "30.88° as the mean of 2 simulations",
+                   .is_confirmed = true,
+                   .held_out = true},
+                  {.experiment = "heap", .what = "mass", .simulated = "predicted 5 ± 1 mg"}};
+  const json page = json::parse(PageJson(MakeReportData(evidence)));
+  const std::string methods = page["methods"];
+  EXPECT_THAT(methods, HasSubstr("it gives 30.88° as the mean of 2 simulations (angle of \"drum\", "
+                                 "held out)."));
+  EXPECT_THAT(methods, HasSubstr("; prior 0.3 ± 0.1)"));
+  EXPECT_THAT(methods, HasSubstr("failed."));
+  EXPECT_THAT(methods, HasSubstr("of them failed."));
+  EXPECT_EQ(page["headline"]["values"][0]["prior"], "0.3 ± 0.1");
 }
 
 TEST(GatherEvidence, NamesAFolderWithoutACampaign) {

@@ -231,5 +231,33 @@ TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   EXPECT_FALSE(Misses(answer, end));
 }
 
+// The measurements say nothing of a parameter whose range is its prior's, and its unit is said.
+TEST(Headline, WhatWasKnownBeforehandIsNotCalledDetermined) {
+  Answer answer = ConfirmedAt(4);
+  answer.parameters = {{.name = "sliding_friction",
+                        .value = 0.451,
+                        .searched_low = 0,
+                        .searched_high = 1,
+                        .credible_low = 0.411,
+                        .credible_high = 0.489},
+                       {.name = "surface_energy",
+                        .unit = "J/m^2",
+                        .value = 0.002,
+                        .searched_low = 0,
+                        .searched_high = 0.1,
+                        .credible_low = 0.001,
+                        .credible_high = 0.003}};
+  answer.posterior->branches = {{.share = 1}};
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("sliding_friction 0.451 (90 %: 0.411 to 0.489)"));
+  answer.parameters[0].prior = {
+      .text = "0.45 ± 0.02", .low = 0.4153, .high = 0.4818, .offset = 0.05};
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("They determine surface_energy 0.002 J/m² (90 %: "
+                                              "0.001 to 0.003 J/m²). The measurements add nothing "
+                                              "to what the prior says of sliding_friction (0.45 ± "
+                                              "0.02)."));
+  answer.parameters[0].prior->offset = -1.5;  // as narrow, but elsewhere
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("sliding_friction 0.451 (90 %"));
+}
+
 }  // namespace misses_test
 }  // namespace talus::campaign

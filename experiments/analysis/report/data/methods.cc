@@ -27,8 +27,9 @@ std::string Searched(const Evidence& evidence) {
 std::string Confirmed(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const FitRow& row : evidence.fit) {
-    if (row.simulated.empty()) continue;
-    words.push_back(row.simulated + " (" + row.what + " of \"" + row.experiment + "\")");
+    if (row.confirmed.empty()) continue;
+    words.push_back(row.confirmed + " (" + row.what + " of \"" + row.experiment + "\"" +
+                    (row.held_out ? ", held out" : "") + ")");
   }
   if (words.empty() || evidence.answer->confirmed.empty()) return "";
   return " Simulated again with fresh seeds, it gives " + base::Listed(words) + ".";
@@ -42,7 +43,8 @@ std::string Answered(const Evidence& evidence) {
     std::string word = p.symbol + " = " + base::WithUnit(v.value, p.unit, 3);
     if (std::isfinite(v.credible_low)) {
       word += " (90 % credible range " + base::ShortNumber(v.credible_low, 3) + " to " +
-              base::ShortNumber(v.credible_high, 3) + ")";
+              base::ShortNumber(v.credible_high, 3) + (v.prior ? "; prior " + v.prior->text : "") +
+              ")";
     }
     words.push_back(word + (p.range.is_nuisance ? " (integrated out)" : ""));
   }
@@ -71,8 +73,8 @@ std::string Measured(const ReportData& data) {
 }
 
 struct Counts {
-  std::ptrdiff_t searched = 0;
-  std::ptrdiff_t reused = 0;  // made by former campaigns
+  std::ptrdiff_t searched = 0;  // with those that failed
+  std::ptrdiff_t reused = 0;    // made by former campaigns
   std::ptrdiff_t failed = 0;
   std::vector<double> scale_factors;  // the coarsest first
 };
@@ -82,7 +84,10 @@ Counts CountsOf(const Evidence& e) {
   Counts counts;
   for (const auto* trials : {&e.trials, &e.of_others}) {
     for (const TrialEvidence& t : *trials) {
-      if (t.state == journal::TrialStatus::kFailed) ++counts.failed;
+      if (t.state == journal::TrialStatus::kFailed && t.purpose != "confirm") {
+        ++counts.failed;
+        ++counts.searched;
+      }
       if (t.state != journal::TrialStatus::kOk || t.purpose == "confirm") continue;
       ++(t.purpose == "reused" ? counts.reused : counts.searched);
       counts.scale_factors.push_back(t.scale_factor);
@@ -108,7 +113,8 @@ std::string Simulated(const Evidence& e) {
     text +=
         (factors.size() == 1 ? " at scale factor " : " at scale factors ") + base::Listed(factors);
   }
-  return text + (counts.failed > 0 ? "; " + std::to_string(counts.failed) + " failed." : ".");
+  return text +
+         (counts.failed > 0 ? "; " + std::to_string(counts.failed) + " of them failed." : ".");
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ PageValue ObjectiveOf(const Evidence& evidence) {
 PageValue ValueJson(const campaign::ResultParameter& p) {
   return {{"value", NumberJson(p.value)},
           {"low", NumberJson(p.credible_low)},
-          {"high", NumberJson(p.credible_high)}};
+          {"high", NumberJson(p.credible_high)},
+          {"prior", p.prior ? p.prior->text : ""}};
 }
 
 // The indices of every parameter, or of none.
@@ -211,6 +212,7 @@ PageValue HeadlineJson(const ReportData& data) {
       {"sentences", HeadlineWords(e)},
       {"verdict_kind", a.verdict ? base::NameOf(a.verdict->kind) : ""},
       {"fits", !campaign::IsDoubtful(a)},
+      {"has_card", a.conditions.command.empty()},  // of another engine nothing is converted
       {"trade_off", TradeOffWords(e)},
       {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
       {"unsettled", a.unsettled.has_value()},

@@ -65,7 +65,7 @@ PageValue CampaignJson(const ReportData& data) {
           {"stop_reason", e.stop_reason},
           {"folder", base::ShellWord(e.folder.string())},
           {"budget", e.max_simulations},
-          {"workers", e.workers},
+          {"seconds_left", NumberJson(e.seconds_left)},
           {"counts", CountsJson(e)},
           {"reused_from",
            e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},

@@ -113,7 +113,8 @@ std::string ParameterTable(const Evidence& evidence) {
         "tr", Text("td", info.symbol + name + asked) +
                   Text("td", ShownOrDash(p.value) + unit,
                        asked.empty() ? "style=\"font-weight:650\"" : "") +
-                  Text("td", ShownOrDash(p.credible_low) + " to " + ShownOrDash(p.credible_high)) +
+                  Text("td", ShownOrDash(p.credible_low) + " to " + ShownOrDash(p.credible_high) +
+                                 (p.prior ? " (prior " + p.prior->text + ")" : "")) +
                   Text("td", ShownOrDash(p.searched_low) + " to " + ShownOrDash(p.searched_high)));
   }
   const bool all_asked = std::ranges::none_of(

@@ -11,7 +11,7 @@ function valueTile(p, v) {
       p.nuisance ? element("strong", {}, " not asked for") : null),
     element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
     element("div", {class: "range"}, ranged ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit) +
-      (p.nuisance ? ", by itself" : "")
+      (p.nuisance ? ", by itself" : "") + (v.prior ? " (prior " + v.prior + ")" : "")
       : "no range: too few trials for a model"),
     element("div", {class: "track", "aria-hidden": "true"},
       ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
@@ -97,7 +97,9 @@ function fitList(h) {
 
 function nextSteps(h) {
   if (!h.next.length) return null;
-  const first = h.verdict_kind === "point"
+  const first = !h.fits
+    ? [element("strong", {}, "First what \u201cUse it now?\u201d says."), " What would narrow the answer after that, the most useful first:"]
+    : h.verdict_kind === "point" && h.has_card
     ? [element("code", {}, "talus card " + D.campaign.folder + " --format NAME"), " writes the set for your code (liggghts, lammps, lethe, yade, " +
        "mercurydpm). To narrow it further, the most useful first:"]
     : ["What would narrow the answer, the most useful first:"];

@@ -28,17 +28,10 @@ function bestSoFar() {
     setText(t.values.map((column) => column[i])));
 }
 
-// By what the latest trials took and how many run at a time; the search may stop before.
+// As `talus status` says it; the search may stop before.
 function timeLeft() {
-  const t = D.trials, ended = t.id.map((_, i) => i).filter((i) => t.state[i] !== "running" && t.seconds[i] !== null);
-  const {searched, failed, running} = D.campaign.counts;
-  const left = D.campaign.budget - searched - failed - running;
-  if (D.campaign.state !== "running" || !D.campaign.budget || left <= 0 || !ended.length) return null;
-  const latest = ended.slice(-10);
-  const each = latest.reduce((sum, i) => sum + t.seconds[i], 0) / latest.length;
-  const workers = Math.max(1, Math.min(running, D.campaign.workers || running));
-  return fact("Time left", "at most about " + duration(left * each / workers),
-    left + " simulations of the budget, " + workers + " at a time");
+  if (D.campaign.state !== "running" || D.campaign.seconds_left === null) return null;
+  return fact("Time left", "at most " + duration(D.campaign.seconds_left), "by the budget, with the confirmation");
 }
 
 // Where a campaign that runs stands: the best trial, the time left, the region and how it has shrunk.
