@@ -55,7 +55,7 @@ void WriteComparison(const analysis::ComparedCampaign& compared, const std::file
   const auto shown = analysis::TrialsToShow(compared.evidence, compared.findings);
   std::vector<analysis::Picture> pictures = analysis::ProfilePictures(compared.evidence, shown);
   pictures.push_back(analysis::SideBySide(compared.evidence, shown));
-  for (const char* former : {"anhp_trial_", "signed_map_trial_"}) {
+  for (const char* former : {"anhp_trial_", "signed_map_trial_", "aehp", "side_by_side"}) {
     base::RemoveFormerFiles(out, former);
   }
   for (const analysis::Picture& picture : pictures) {
@@ -140,8 +140,10 @@ void AddCompareCommand(CLI::App& app) {
                    "so many more for --objective; default: 20")
       ->check(CLI::Range(1, campaign::BudgetOptions::kMostSimulations))
       ->needs(objective);
-  command->add_option("--experiment", arguments->experiment,
-                      "whose trials are compared, in a campaign with several; default: the first");
+  command->add_option(
+      "--experiment", arguments->experiment,
+      "whose trials are compared, in a campaign with several; default: the first with "
+      "photographs, else the first");
   command->callback([arguments] { RunCompare(*arguments); });
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -49,6 +50,7 @@ void Watch(const ReportArguments& arguments) {
   const base::InterruptGuard interrupt;
   std::string shown;
   std::vector<analysis::RegionPoint> history;
+  std::optional<analysis::ReportData> data;
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
     const bool worked_on = campaign::IsWorkedOn(arguments.campaign);
@@ -56,11 +58,11 @@ void Watch(const ReportArguments& arguments) {
         analysis::GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
-      analysis::ReportData data = Complete(arguments, std::move(evidence));
-      analysis::Follow(data, history);
-      data.region_history = history;
+      data = Complete(arguments, std::move(evidence));
+      analysis::Follow(*data, history);
+      data->region_history = history;
       const auto page =
-          analysis::WriteReport(data, arguments.out, {.reload = worked_on ? kWatchPeriod : 0});
+          analysis::WriteReport(*data, arguments.out, {.reload = worked_on ? kWatchPeriod : 0});
       if (shown.empty()) std::cout << "The report is " << page.string() << std::endl;
       shown = state;
     }
@@ -69,6 +71,9 @@ void Watch(const ReportArguments& arguments) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
+  // Nobody keeps the page current any more: it must not load itself anew, and with it lose its
+  // reader's place.
+  if (data) analysis::WriteReport(*data, arguments.out, {.reload = 0});
 }
 
 void ReportSearch(const ReportArguments& arguments) {

@@ -86,6 +86,10 @@ std::string LetheCard(const Card& card) {
     text << "# NOT INCLUDED: " << card.materials[i].name
          << ". Lethe has one wall material: " << card.materials[wall].name << ".\n";
   }
+  if (test.plate > 0 && test.tube == 0) {
+    text << "# NOT INCLUDED: the tube is of the grains' material. Lethe has one wall material: "
+         << card.materials[wall].name << ".\n";
+  }
   text << "subsection lagrangian physical properties\n  subsection particle type 0\n"
        << LetheSizes(card) << "    set density particles = " << CardNumber(powder.density) << "\n"
        << Lines(powder, "particles", "    ") << "  end\n"

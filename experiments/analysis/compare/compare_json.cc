@@ -78,6 +78,7 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
     knowledge.push_back(KnowledgeJson(k));
   }
   const Json json{{"name", compared.evidence.name},
+                  {"experiment", compared.evidence.experiments.at(compared.evidence.experiment)},
                   {"knowledge", knowledge},
                   {"tie_margin_in_noise_sd", kTieMargin},
                   {"objectives", objectives}};

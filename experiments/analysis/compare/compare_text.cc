@@ -150,7 +150,10 @@ std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
 }  // namespace
 
 std::string ComparisonText(const ComparedCampaign& compared) {
-  std::string text = compared.evidence.name + "\n\n";
+  const Evidence& evidence = compared.evidence;
+  std::string text = evidence.name;
+  if (evidence.experiments.size() > 1) text += ": " + evidence.experiments[evidence.experiment];
+  text += "\n\n";
   text += WhatEachKnows(compared.evidence) + FromTrials(compared) + FromModel(compared);
   for (const ObjectiveFinding& f : compared.findings) {
     if (f.absent.empty()) text += TenBest(compared, f);

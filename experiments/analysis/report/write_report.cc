@@ -23,7 +23,8 @@ std::string OwnFolder(const Evidence& evidence) {
 // Each experiment's in a folder of its own, the shown one's in `folder`.
 void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  for (const char* former : {"next_", "predict_", "remains_"}) {
+  for (const char* former :
+       {"next_", "predict_", "remains_", "anhp_trial_", "signed_map_trial_", "heap_"}) {
     base::RemoveFormerFiles(folder, former);
   }
   for (const Picture& picture : data.pictures) WritePicture(folder, picture);
