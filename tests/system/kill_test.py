@@ -6,12 +6,14 @@ nothing of it may run on, and what was finished must stay as it was; in the end 
 trials of one that nobody killed. --two: of two experiments at three scale factors, searched by the posterior.
 `bench/kills` runs both with 200 kills.
 """
+import contextlib
 import json
 import os
 import pathlib
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -84,6 +86,18 @@ def processes_in(folder):
     return found
 
 
+def has_begun(folder):
+    """Whether the journal holds the campaign: its file is there some milliseconds before."""
+    path = folder / "out/journal.sqlite"
+    if not path.exists():
+        return False
+    with contextlib.closing(sqlite3.connect(f"file:{path}?mode=ro", uri=True)) as journal:
+        try:
+            return journal.execute("SELECT count(*) FROM campaign").fetchone()[0] > 0
+        except sqlite3.Error:
+            return False
+
+
 def finished_trials(talus, folder, out="out"):
     subprocess.run([talus, "export", out], cwd=folder, check=True, capture_output=True)
     trials = json.loads((folder / out / "export/trials.json").read_text())["trials"]
@@ -100,13 +114,14 @@ def killed_campaign(talus, source, most_kills, dice, two):
         confirming = 4 if two else 2
         make_spec(source, folder, simulations, two)
         before, kills, late_kills = {}, 0, 0
+        longest = 0.6  # that a campaign lives [s]
         command = [talus, "calibrate", "spec.json", "--out", "out"]
         while True:
             campaign = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT)
             try:
                 output = campaign.communicate(timeout=None if kills == most_kills
-                                              else dice.uniform(0.02, 0.6))[0].decode()
+                                              else dice.uniform(0.02, longest))[0].decode()
             except subprocess.TimeoutExpired:
                 campaign.send_signal(dice.choice((signal.SIGKILL, signal.SIGINT)))
                 output = campaign.communicate()[0].decode()
@@ -115,13 +130,14 @@ def killed_campaign(talus, source, most_kills, dice, two):
             while (left := processes_in(folder)) and time.monotonic() < deadline:
                 time.sleep(0.01)
             assert not left, f"these live on: {left}"
-            if not (folder / "out/journal.sqlite").exists():
+            if not has_begun(folder):
                 assert campaign.returncode in KILLED, output
                 for file in sorted((folder / "out").rglob("*")) if (folder / "out").exists() else []:
                     assert file.name in ("campaign.lock", "aehp.png", "aehp_sd.png", "campaign.json") \
-                        or ".tmp" in file.name or file.name.startswith(("run_", "experiment_")), file
+                        or ".tmp" in file.name or file.name.startswith(("run_", "experiment_", "journal.sqlite")), file
                 if (folder / "out/campaign.json").exists():
                     command = [talus, "resume", "out"]
+                longest *= 1.3  # a busy machine needs longer to begin
                 continue
             command = [talus, "resume", "out"]
             assert campaign.returncode in (0, *KILLED), output
