@@ -143,7 +143,7 @@ std::string StateText(const journal::ProgressRecord& progress, bool alive,
                                     : "ended without a result";
 }
 
-// Of a campaign whose goal is this one so far.
+// What a campaign with this goal so far has used of its budget.
 BudgetUse UseWith(const std::optional<GoalState>& goal, const CampaignSpec& spec,
                   const std::vector<journal::TrialRecord>& trials, double elapsed) {
   const auto running =

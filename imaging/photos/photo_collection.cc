@@ -65,7 +65,7 @@ void CheckScale(double median, Photo& photo) {
   photo.lacks_plate = true;
 }
 
-// Of one photograph, or of a view that is missing.
+// What is wrong with one photograph, or that a view is missing.
 struct Fault {
   std::string name;  // of the file, as the text begins; "" of a missing view
   std::string text;

@@ -177,7 +177,7 @@ TEST(Experiment, LeavingOutMostPhotographsIsNotOffered) {
   EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("\"frame\""));
 }
 
-// Of what the hint proposes, nothing would help.
+// Nothing that the hint proposes would help these photographs.
 TEST(Experiment, TheHintAtThePlateIsGivenWhereNoneWasFoundOnly) {
   const auto error_of = [](const char* name, void (*spoil)(const fs::path&)) {
     const fs::path folder = GoodFolder(name);

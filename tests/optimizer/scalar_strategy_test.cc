@@ -97,7 +97,6 @@ TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
 
 // A quadratic bowl is what the process has as its trend: once the bottom is found, little else is
 // possible, however many decades lie between the bottom's values and the others.
-// Of an additive bowl the first-order indices add up to 1, as far as 512 points tell.
 TEST(ScalarStrategy, RangesOfAnExactBowlAreNarrowOnceItsBottomIsFound) {
   const auto bowl = [](const Eigen::VectorXd& x) {
     return std::pow(x[0] - 0.25, 2) + 0.9 * std::pow(x[1] - 0.57, 2);

@@ -23,7 +23,7 @@ std::optional<KnownNumber> KnownOf(const MeasuredNumbers& numbers) {
   return KnownNumber{.value = number->Value(), .error = number->StandardError()};
 }
 
-// Of numbers above zero.
+// Both numbers are above zero.
 inline KnownNumber Ratio(const KnownNumber& above, const KnownNumber& below) {
   const double ratio = above.value / below.value;
   return {.value = ratio,

@@ -54,7 +54,7 @@ fs::path OverlayPath(const fs::path& out, const std::string& name) {
   return out / "overlays" / (name + ".png");
 }
 
-// Of photographs that are no longer measured, or were at fault.
+// Photographs that are no longer measured, or were at fault, leave no picture behind.
 void RemoveFormerOverlays(const fs::path& out) {
   base::RemoveFormerFiles(out / "overlays", "run_");
   base::RemoveFormerFiles(out / "overlays", "fault_");

@@ -41,7 +41,7 @@ std::string Scripts() {
          std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
 }
 
-// Of the charting library, which asks that they go with every copy.
+// The charting library asks that its licences go with every copy.
 std::string Licences() {
   std::string all;
   for (const std::string_view text :
