@@ -49,7 +49,8 @@ TEST_F(CommandEngineTest, ProcessorTimeOfTheCommandIsKnown) {
   EXPECT_LT(output.cpu_time, 60);
 }
 
-// The heap is what our own tube would leave: a cone of small spheres, 45° steep, whose silhouette is a triangle.
+// The heap is what our own tube would leave: a cone of small spheres, 45° steep, whose silhouette
+// is a triangle.
 TEST_F(CommandEngineTest, AngleAndHeightOfAHeapFollowFromItsSpheres) {
   Deck("run.sh", R"sh(awk 'BEGIN { print "x,y,z,r"; s = 2.5e-4
     for (i = -20; i <= 20; ++i) for (j = -20; j <= 20; ++j) for (k = 0; k < 20; ++k)
