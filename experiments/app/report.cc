@@ -38,11 +38,19 @@ std::string StateOf(const analysis::Evidence& evidence) {
   return state;
 }
 
+void WarnOf(const analysis::LeftOut& left_out) {
+  for (const std::string& line : left_out) {
+    std::cerr << "warning: left out of the report: " << line << std::endl;
+  }
+}
+
 // With the model that answers, and the campaign's other experiments.
 analysis::ReportData Complete(const ReportArguments& arguments, analysis::Evidence evidence) {
   std::vector<analysis::Evidence> others = analysis::GatherOthers(arguments.campaign, evidence);
   analysis::AddModel(arguments.campaign, evidence, others);
-  return analysis::MakeReportData(std::move(evidence), std::move(others));
+  analysis::ReportData data = analysis::MakeReportData(std::move(evidence), std::move(others));
+  WarnOf(data.left_out);
+  return data;
 }
 
 // Keeps the page current until the campaign stands still or the user ends it.

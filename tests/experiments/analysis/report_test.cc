@@ -370,7 +370,8 @@ TEST(WriteReport, TablesOfFurtherExperimentsStandInFoldersOfTheirOwn) {
 TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {
   Evidence evidence = test::MakeSyntheticCampaign();
   evidence.answer->representative = {{0.1, 0.5, 1e-5}, test::SyntheticTruth(), {0.6, 0.1, 3e-5}};
-  const auto views = RepresentativeViews(evidence);
+  LeftOut none;
+  const auto views = RepresentativeViews(evidence, none);
   ASSERT_EQ(views.size(), 3u);
   EXPECT_TRUE(views[1].is_recommended);
   EXPECT_DOUBLE_EQ(views[1].values[0], evidence.answer->parameters[0].value);

@@ -43,11 +43,15 @@ ReportData ExperimentData(Evidence evidence) {
 
 ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others) {
   ReportData data = ExperimentData(std::move(evidence));
-  for (Evidence& other : others) data.others.push_back(ExperimentData(std::move(other)));
+  LeftOut& left_out = data.left_out;
+  for (Evidence& other : others) {
+    const ReportData& made = data.others.emplace_back(ExperimentData(std::move(other)));
+    left_out.insert(left_out.end(), made.left_out.begin(), made.left_out.end());
+  }
   AddModelViews(data);
-  data.next_table = ReadNextTable(data.evidence);
-  data.predictions = ReadPredictions(data.evidence);
-  data.sensitivity = ReadSensitivity(data.evidence);
+  data.next_table = ReadExtra(left_out, [&] { return ReadNextTable(data.evidence, left_out); });
+  data.predictions = ReadPredictions(data.evidence, left_out);
+  data.sensitivity = ReadExtra(left_out, [&] { return ReadSensitivity(data.evidence); });
   data.widths = WidthViews(data.evidence);
   data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;

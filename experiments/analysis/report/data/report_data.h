@@ -55,11 +55,11 @@ struct ReportData {
   std::vector<RegionPoint> region_history;     // of a page that is watched
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
-  std::string overlay_absent;                  // why there are no photographs to show
   std::optional<FilmView> film;
   std::vector<MeasuredProfile> measures;
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;
+  LeftOut left_out;                // of all experiments
   std::vector<ReportData> others;  // of a campaign's further experiments, with what differs there
 
   const ObjectiveFinding& own() const { return findings[objective]; }

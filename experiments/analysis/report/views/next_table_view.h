@@ -7,6 +7,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/views/extras.h"
 
 namespace talus::analysis {
 
@@ -46,7 +47,8 @@ struct NextTableView {
   std::vector<CandidateView> candidates;
 };
 
-// Nothing where `talus next` has not been run. Throws ConfigError on a damaged file.
-std::optional<NextTableView> ReadNextTable(const Evidence& evidence);
+// Nothing where `talus next` has not been run. Throws ConfigError on a damaged file, but for the
+// pictures.
+std::optional<NextTableView> ReadNextTable(const Evidence& evidence, LeftOut& left_out);
 
 }  // namespace talus::analysis

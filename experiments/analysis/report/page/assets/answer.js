@@ -75,6 +75,13 @@ function alarms() {
     element("ul", {}, D.warnings.map((w) => element("li", {}, withCode(w))))) : null;
 }
 
+// Files beside the journal that are damaged.
+function leftOut() {
+  return D.left_out.length ? element("div", {class: "notice", role: "note", id: "left-out"},
+    element("strong", {}, "Left out of this report"),
+    element("ul", {}, D.left_out.map((line) => element("li", {}, withCode(line))))) : null;
+}
+
 const meetsText = {yes: "✓ fits", no: "✗ misses", unknown: "? open"};
 
 const judged = (row) => [row.judgement, row.implausibility === null ? ""
