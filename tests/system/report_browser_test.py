@@ -196,6 +196,20 @@ class ReportInABrowser(unittest.TestCase):
         self.assertNotEqual(before, self.driver.execute_script(picture))
         self.check_log()
 
+    def test_of_one_parameter_a_line_marks_what_is_recommended(self):
+        self.open_report("three", 60, 3, "finished")
+        self.will_change_the_page()
+        # The star stood at the campaign's own objective, on whatever axis was shown.
+        series, value = self.driver.execute_script(
+            "D.parameters = D.parameters.slice(0, 1); document.getElementById('space').id = 'former';"
+            "document.getElementById('space-section').append(spaceChart()); talusCharts[talusCharts.length - 1].start();"
+            "return [echarts.getInstanceByDom(document.getElementById('space')).getOption().series"
+            ".find((s) => s.name === 'recommended'), D.headline.values[0].value]")
+        self.assertEqual(series["data"], [])
+        self.assertEqual([mark["xAxis"] for mark in series["markLine"]["data"]], [value])
+        self.check_log()
+        self.keep_screenshot("one")
+
     def test_table_sorts_filters_and_turns_pages(self):
         self.open_report("three", 60, 3, "finished")
         self.will_change_the_page()

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/next/advise.h"
+#include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "tests/experiments/next_fixture.h"
 
@@ -94,6 +95,7 @@ TEST_F(NextCandidates, WhatAddExperimentWouldRefuseIsNotRanked) {
               HasSubstr("cannot be simulated: fast: device.lift_velocity"));
   EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
   EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
+  EXPECT_THAT(NextJson(table), testing::Not(HasSubstr("\"needs_simulations\": true")));
   EXPECT_FALSE(fs::exists(folder_ / "next"));
 }
 

@@ -91,6 +91,22 @@ TEST(NextTable, MadeBeforeTheLastTrialsIsCalledOutdated) {
   EXPECT_TRUE(ReadNextTable(WithNext("old", old), none)->is_outdated);
 }
 
+// All that was not known had a "?", and the advice to simulate it.
+TEST(NextTable, WhatNoSimulationWillTellIsNotAskedToBeSimulated) {
+  json table = json::parse(kNextJson);
+  json silent = table["candidates"][1], impossible = silent;
+  silent["needs_simulations"] = false;  // they are made
+  impossible["what"] = "cannot be simulated: no plate";
+  impossible["num_simulations"] = 0;
+  table["candidates"].insert(table["candidates"].end(), {silent, impossible});
+  const json next = json::parse(PageJson(MakeReportData(WithNext("silent", table.dump()))))["next"];
+  const auto needs = [&](std::size_t i) { return next["candidates"][i]["needs_simulations"]; };
+  EXPECT_EQ(needs(0), false);
+  EXPECT_EQ(needs(1), true);
+  EXPECT_EQ(needs(2), false);
+  EXPECT_EQ(needs(3), false);
+}
+
 TEST(NextTable, ADamagedOneIsLeftOutAndNamedWithTheRemedy) {
   const ReportData data = MakeReportData(WithNext("damaged", R"({"candidates": 3})"));
   EXPECT_FALSE(data.next_table);

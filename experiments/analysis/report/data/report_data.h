@@ -68,6 +68,10 @@ struct ReportData {
 // `others`: the same campaign with its further experiments shown.
 ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others = {});
 
+// The pair of parameters that says most: the one that the answer says to change together, or the
+// one whose region is smallest; an index into data.pairs, nothing where there are none.
+std::optional<std::size_t> ClosestPair(const ReportData& data);
+
 // Share of the searched plane that the joint 90 % region takes of the two parameters that it ties
 // closest; undefined without a posterior.
 double RegionShare(const ReportData& data);

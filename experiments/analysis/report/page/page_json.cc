@@ -177,6 +177,8 @@ void AddModel(const ReportData& data, PageValue& page) {
   page["slices"] = ListJson(data.slices, SliceJson);
   page["marginals"] = ListJson(data.marginals, MarginalJson);
   page["pairs"] = ListJson(data.pairs, PairJson);
+  const auto closest = ClosestPair(data);
+  page["closest_pair"] = closest ? PageValue(*closest) : PageValue(nullptr);
   page["model"] = ModelJson(data);
   page["model_absent"] = data.evidence.model_absent;
   page["region_share"] = NumberJson(RegionShare(data));

@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/views/next_table_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,8 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence) {
       candidate.goal = json["goal_half_width_90"].get<double>();
     }
   }
+  candidate.needs_simulations =
+      json.value("needs_simulations", std::isnan(candidate.bits) && candidate.num_simulations > 0);
   if (!json.contains("told_apart")) return candidate;
   candidate.apart = json["told_apart"].get<std::vector<std::vector<double>>>();
   for (const Json& number : json.value("told_apart_by", Json::array())) {

@@ -20,10 +20,11 @@ struct CandidateView {
   };
   std::string kind;  // as in next.json: "test", "more_runs", …
   std::string name;
-  std::string what;               // in words
-  double bits = kUndefined;       // expected; undefined where its simulations have not been run
-  std::vector<double> width;      // of the joint 90 % ranges that it leaves, unit cube; or none
-  double remaining = kUndefined;  // share of what there is to narrow (NextCandidate)
+  std::string what;                // in words
+  double bits = kUndefined;        // expected; undefined where that is not known
+  bool needs_simulations = false;  // … before its simulations have been run
+  std::vector<double> width;       // of the joint 90 % ranges that it leaves, unit cube; or none
+  double remaining = kUndefined;   // share of what there is to narrow (NextCandidate)
   double goal = kUndefined;  // half-width of the goal's 90 % that it leaves, where there is a goal
   int num_simulations = 0;
   double core_time = 0;  // [s]

@@ -9,7 +9,7 @@ function standing() {
   if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
-    c.state === "ended without a word" ? [element("code", {}, "talus resume " + c.folder), " goes on. "] : null,
+    c.ended_silently ? [element("code", {}, "talus resume " + c.folder), " goes on. "] : null,
     parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];
 }
 
