@@ -221,6 +221,10 @@ class ReportInABrowser(unittest.TestCase):
         falling = [float(x) for x in self.column("sad_mm2") if x != "–"]
         self.assertEqual(falling, sorted(falling, reverse=True))
         self.assertGreater(falling[0], rising[0])
+        button = head.find_element(By.TAG_NAME, "button")
+        for key, order in ((" ", "ascending"), ("\n", "descending")):  # without a mouse
+            button.send_keys(key)
+            self.assertEqual(head.get_attribute("aria-sort"), order)
 
         box = self.driver.find_element(By.ID, "trial-filter")
         box.send_keys("state=failed")
@@ -503,6 +507,11 @@ class ReportInABrowser(unittest.TestCase):
             "card(spaceChart())) === null && within({...D, trials: {...D.trials, state: D.trials.id.map(() => 'running')}},"
             " () => card(convergenceChart())) === null")
         self.assertTrue(missing)
+        empty = self.driver.execute_script(
+            "return within({...D, objectives: D.objectives.map((o) => ({...o, absent: 'no trial'})), trials: {...D.trials,"
+            " state: D.trials.id.map(() => 'failed')}}, () => element('div', {}, ...comparisonSection())).outerHTML")
+        self.assertIn("No trial has succeeded", empty)
+        self.assertNotIn("<table", empty)
         charts = self.driver.execute_script(
             "const fail = () => { throw new Error('broken'); };"
             "return talusCharts.unshift({id: 'broken', start: fail, toPaper: fail, redraw: fail}) - 1")

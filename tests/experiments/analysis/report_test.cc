@@ -105,6 +105,8 @@ TEST_F(Report, TablesHaveARowForEachTrialAndUnitsInTheirHeads) {
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'),
             static_cast<std::ptrdiff_t>(Data().evidence.trials.size()) + 1);
   const std::string best = Table("ten_best");
+  EXPECT_THAT(best, StartsWith("objective,rank,unit,quantity,"));
+  EXPECT_THAT(Table("objectives"), HasSubstr("\nsad,trials,sad_mm2,mm2,"));
   EXPECT_EQ(std::count(best.begin(), best.end(), '\n'), 1 + 5 * 10);
 }
 
@@ -337,6 +339,15 @@ TEST(WriteReport, TablesOfFurtherExperimentsStandInFoldersOfTheirOwn) {
   EXPECT_EQ(lines("wide plate/trials.csv"), 4);
   EXPECT_EQ(lines("experiment_3/trials.csv"), 5);
   EXPECT_FALSE(std::filesystem::exists(folder / "trials.csv"));
+  // One that has another name since; a file of the user's keeps its folder.
+  base::WriteFileAtomically(folder / "tables/experiment_3/mine.txt", "mine");
+  shown.experiments = others[0].experiments = others[1].experiments = {"heap", "wide", "third"};
+  WriteReport(MakeReportData(shown, others), folder);
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables/wide plate"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures/wide plate"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables/experiment_3/trials.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "tables/experiment_3/mine.txt"));
+  EXPECT_EQ(lines("wide/trials.csv"), 4);
   std::filesystem::remove_all(folder);
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
+#include "experiments/analysis/report/page/plain_page.h"
 #include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
@@ -48,19 +49,6 @@ std::string Element(const std::string& tag, const std::string& content,
 std::string Text(const std::string& tag, const std::string& text,
                  const std::string& attributes = "") {
   return Element(tag, base::MarkupText(text), attributes);
-}
-
-// What stands in backticks is a command.
-std::string WithCode(const std::string& text) {
-  std::string marked;
-  bool is_code = false;
-  std::size_t from = 0;
-  for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', from)) {
-    marked += base::MarkupText(text.substr(from, at - from)) + (is_code ? "</code>" : "<code>");
-    is_code = !is_code;
-    from = at + 1;
-  }
-  return marked + base::MarkupText(text.substr(from)) + (is_code ? "</code>" : "");
 }
 
 std::string Image(const Picture& picture, const std::string& caption) {
