@@ -168,5 +168,17 @@ TEST_F(NextCandidates, ADeckSimulatesOnlyTheTestsThatItTakes) {
   EXPECT_EQ(WhyNot(view, wide), "");
 }
 
+// It was asked for simulations that it had already.
+TEST(NextText, ATestThatTellsNothingIsNotAskedToBeSimulated) {
+  NextCandidate mute{
+      .name = "mute", .what = "tells nothing", .num_simulations = 20, .num_made = 16};
+  NextTable table;
+  table.candidates = {mute};
+  EXPECT_THAT(NextText(table), HasSubstr("     -   mute: tells nothing"));
+  EXPECT_THAT(NextText(table), testing::Not(HasSubstr("?:")));
+  table.candidates[0].num_made = 4;
+  EXPECT_THAT(NextText(table), HasSubstr("     ?   mute: tells nothing"));
+}
+
 }  // namespace next_candidates_test
 }  // namespace talus::analysis
