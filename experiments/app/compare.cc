@@ -128,8 +128,8 @@ void AddCompareCommand(CLI::App& app) {
   command->add_option("--out", arguments->out,
                       "folder to write into; default: DIR/compare, and of batches none");
   command->add_option("--matters", arguments->matters,
-                      "of batches, NAME=VALUE: a difference of this parameter that would matter; "
-                      "default: a tenth of its searched range");
+                      "of batches, NAME=VALUE: a difference of this parameter that would matter, "
+                      "a factor of a logarithmic one; default: a tenth of its searched range");
   CLI::Option* objective =
       command
           ->add_option("--objective", arguments->objective,

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -38,11 +40,23 @@ std::string StateOf(const analysis::Evidence& evidence) {
   return state;
 }
 
+// Once of each, however often the page is written.
+void WarnOf(const analysis::LeftOut& left_out, analysis::LeftOut& said) {
+  for (const std::string& line : left_out) {
+    if (std::ranges::find(said, line) != said.end()) continue;
+    std::cerr << "warning: left out of the report: " << line << std::endl;
+    said.push_back(line);
+  }
+}
+
 // With the model that answers, and the campaign's other experiments.
-analysis::ReportData Complete(const ReportArguments& arguments, analysis::Evidence evidence) {
+analysis::ReportData Complete(const ReportArguments& arguments, analysis::Evidence evidence,
+                              analysis::LeftOut& said) {
   std::vector<analysis::Evidence> others = analysis::GatherOthers(arguments.campaign, evidence);
   analysis::AddModel(arguments.campaign, evidence, others);
-  return analysis::MakeReportData(std::move(evidence), std::move(others));
+  analysis::ReportData data = analysis::MakeReportData(std::move(evidence), std::move(others));
+  WarnOf(data.left_out, said);
+  return data;
 }
 
 // Keeps the page current until the campaign stands still or the user ends it.
@@ -50,6 +64,7 @@ void Watch(const ReportArguments& arguments) {
   const base::InterruptGuard interrupt;
   std::string shown;
   std::vector<analysis::RegionPoint> history;
+  analysis::LeftOut said;
   std::optional<analysis::ReportData> data;
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
@@ -58,7 +73,7 @@ void Watch(const ReportArguments& arguments) {
         analysis::GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
-      data = Complete(arguments, std::move(evidence));
+      data = Complete(arguments, std::move(evidence), said);
       analysis::Follow(*data, history);
       data->region_history = history;
       const auto page =
@@ -117,8 +132,9 @@ void AddReportCommand(CLI::App& app) {
     }
     analysis::Evidence evidence =
         analysis::GatherEvidence(arguments->campaign, arguments->experiment);
+    analysis::LeftOut said;
     const auto page =
-        analysis::WriteReport(Complete(*arguments, std::move(evidence)), arguments->out);
+        analysis::WriteReport(Complete(*arguments, std::move(evidence), said), arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

@@ -196,6 +196,20 @@ class ReportInABrowser(unittest.TestCase):
         self.assertNotEqual(before, self.driver.execute_script(picture))
         self.check_log()
 
+    def test_of_one_parameter_a_line_marks_what_is_recommended(self):
+        self.open_report("three", 60, 3, "finished")
+        self.will_change_the_page()
+        # The star stood at the campaign's own objective, on whatever axis was shown.
+        series, value = self.driver.execute_script(
+            "D.parameters = D.parameters.slice(0, 1); document.getElementById('space').id = 'former';"
+            "document.getElementById('space-section').append(spaceChart()); talusCharts[talusCharts.length - 1].start();"
+            "return [echarts.getInstanceByDom(document.getElementById('space')).getOption().series"
+            ".find((s) => s.name === 'recommended'), D.headline.values[0].value]")
+        self.assertEqual(series["data"], [])
+        self.assertEqual([mark["xAxis"] for mark in series["markLine"]["data"]], [value])
+        self.check_log()
+        self.keep_screenshot("one")
+
     def test_table_sorts_filters_and_turns_pages(self):
         self.open_report("three", 60, 3, "finished")
         self.will_change_the_page()
@@ -207,6 +221,10 @@ class ReportInABrowser(unittest.TestCase):
         falling = [float(x) for x in self.column("sad_mm2") if x != "–"]
         self.assertEqual(falling, sorted(falling, reverse=True))
         self.assertGreater(falling[0], rising[0])
+        button = head.find_element(By.TAG_NAME, "button")
+        for key, order in ((" ", "ascending"), ("\n", "descending")):  # without a mouse
+            button.send_keys(key)
+            self.assertEqual(head.get_attribute("aria-sort"), order)
 
         box = self.driver.find_element(By.ID, "trial-filter")
         box.send_keys("state=failed")
@@ -489,6 +507,11 @@ class ReportInABrowser(unittest.TestCase):
             "card(spaceChart())) === null && within({...D, trials: {...D.trials, state: D.trials.id.map(() => 'running')}},"
             " () => card(convergenceChart())) === null")
         self.assertTrue(missing)
+        empty = self.driver.execute_script(
+            "return within({...D, objectives: D.objectives.map((o) => ({...o, absent: 'no trial'})), trials: {...D.trials,"
+            " state: D.trials.id.map(() => 'failed')}}, () => element('div', {}, ...comparisonSection())).outerHTML")
+        self.assertIn("No trial has succeeded", empty)
+        self.assertNotIn("<table", empty)
         charts = self.driver.execute_script(
             "const fail = () => { throw new Error('broken'); };"
             "return talusCharts.unshift({id: 'broken', start: fail, toPaper: fail, redraw: fail}) - 1")

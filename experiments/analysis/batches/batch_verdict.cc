@@ -43,12 +43,19 @@ std::vector<MeasuredTest> MeasuredTests(const BatchComparison& c, const std::str
   return tests;
 }
 
+// "0.2 J/m2", of a logarithmic parameter "a factor of 1.3".
+std::string MedianText(const BatchParameter& p, const BatchDifference& d) {
+  const std::string number = base::ShortNumber(d.range.median);
+  if (p.IsLog()) return "a factor of " + number;
+  return p.unit.empty() ? number : number + " " + p.unit;
+}
+
 std::vector<std::string> ParametersApart(const BatchComparison& c, std::size_t batch) {
   std::vector<std::string> apart;
   if (!c.together[batch - 1].is_found) return apart;
   for (const BatchParameter& p : c.parameters) {
     const BatchDifference& d = p.differences[batch - 1];
-    if (d.is_found) apart.push_back(p.name + " by " + base::ShortNumber(d.range.median));
+    if (d.is_found) apart.push_back(p.name + " by " + MedianText(p, d));
   }
   if (apart.empty()) apart.push_back("the parameters together, none of them by itself");
   return apart;

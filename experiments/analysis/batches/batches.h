@@ -14,6 +14,7 @@
 
 #include "base/field.h"
 #include "imaging/gray_image.h"
+#include "optimizer/space/scale.h"
 
 namespace talus::analysis {
 
@@ -27,12 +28,13 @@ struct BatchRange {
   TALUS_FIELDS(median, low, high);
 };
 
-// This batch less the first.
+// This batch less the first; of a parameter that was searched on a logarithmic scale, over it: then
+// range and `matters` are factors, and 1 is no difference.
 struct BatchDifference {
   BatchRange range{};      // of the difference
-  double matters = 0;      // a difference that is asked for [SI]
+  double matters = 0;      // a difference that is asked for [SI]; a factor > 1
   double probability = 0;  // that it is larger than that, either way
-  bool is_found = false;   // the 90 % leave out 0
+  bool is_found = false;   // the 90 % leave out no difference
 
   static constexpr base::FieldKey kKeys[] = {{"range", "difference"},
                                              {"probability", "probability_larger"}};
@@ -42,10 +44,13 @@ struct BatchDifference {
 struct BatchParameter {
   std::string name{};
   std::string unit{};
+  std::string scale{};  // as the first batch searched it: "linear", "log"
   std::vector<BatchRange> batches{};
   std::vector<BatchDifference> differences{};  // of all but the first batch
 
-  TALUS_FIELDS(name, unit, batches, differences);
+  bool IsLog() const { return scale == base::NameOf(optimizer::Scale::kLog); }
+
+  TALUS_FIELDS(name, unit, scale, batches, differences);
 };
 
 // All parameters of a batch less those of the first: a curve of equal sets may hide in single
@@ -112,7 +117,8 @@ struct BatchComparison {
 };
 
 // At least two folders. `matters` is the difference that counts of a parameter, by name and as text
-// with its unit; default: a tenth of the searched range of the first batch. Throws ConfigError
+// with its unit, of a logarithmic one as a factor; default: a tenth of the searched range of the
+// first batch, on its scale. Throws ConfigError
 // where the campaigns have searched different parameters or are one and the same, or a name is none
 // of the parameters.
 BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders,
@@ -157,6 +163,8 @@ bool IsBeyondChance(double probability);
 // How many photographs and numbers of a batch were compared.
 int NumMeasured(const BatchComparison& comparison, const std::string& batch);
 std::string BatchesText(const BatchComparison& comparison);
+// "0.12", of a logarithmic parameter "× 1.3".
+std::string ChangeText(const BatchParameter& parameter, double change);
 std::string DifferenceText(const BatchNumber& number);      // "-5 ± 1.4 mg"
 std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
 // A parameter over the batches, for quality control: the first one's 90 % as a band, and dashed

@@ -16,10 +16,14 @@ std::string InRange(const BatchRange& range) {
          base::ShortNumber(range.high) + ")";
 }
 
+std::string Change(const BatchParameter& p, const BatchRange& range) {
+  return (p.IsLog() ? "× " : "") + InRange(range);
+}
+
 std::string Verdicts(const BatchComparison& c) {
   std::string list = "<ul>\n";
   for (const std::string& engine : c.other_engines) {
-    list += "<li>Warning: " + base::MarkupText(engine) + "</li>\n";
+    list += "<li>Warning: " + WithCode(engine) + "</li>\n";
   }
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     list += "<li><strong>" + base::MarkupText(c.batches[b]) +
@@ -30,7 +34,7 @@ std::string Verdicts(const BatchComparison& c) {
             base::ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + ")</li>\n";
   }
   for (const std::string& warning : c.warnings) {
-    list += "<li>Warning: " + base::MarkupText(warning) + "</li>\n";
+    list += "<li>Warning: " + WithCode(warning) + "</li>\n";
   }
   return list + "</ul>\n";
 }
@@ -57,7 +61,7 @@ std::string DifferenceTable(const BatchComparison& c) {
       std::vector<std::string> cells{p.name, p.unit, c.batches[b], InRange(p.batches[b])};
       if (b > 0) {
         const BatchDifference& d = p.differences[b - 1];
-        cells.insert(cells.end(), {InRange(d.range), base::ShortNumber(d.matters),
+        cells.insert(cells.end(), {Change(p, d.range), ChangeText(p, d.matters),
                                    base::ShortNumber(d.probability, 2)});
       } else {
         cells.insert(cells.end(), 3, "–");

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text/csv.h"
 #include "base/text/joined.h"
@@ -14,9 +15,23 @@ namespace {
 
 using base::ShortNumber;
 
-std::string RangeText(const BatchRange& range, const std::string& unit) {
+std::string RangeText(const BatchRange& range) {
   return ShortNumber(range.median) + " (90 % in " + ShortNumber(range.low) + " … " +
-         ShortNumber(range.high) + ")" + (unit.empty() ? "" : " " + unit);
+         ShortNumber(range.high) + ")";
+}
+
+std::string WithUnit(const std::string& text, const BatchParameter& p) {
+  return text + (p.unit.empty() ? "" : " " + p.unit);
+}
+
+// "sliding_friction  0.4 (90 % in …) → 0.6 (…); difference 0.2 (…), larger than 0.07 with …".
+std::string ParameterText(const BatchParameter& p, std::size_t batch) {
+  const BatchDifference& d = p.differences[batch - 1];
+  const std::string change =
+      (p.IsLog() ? "× " : "") + (p.IsLog() ? RangeText(d.range) : WithUnit(RangeText(d.range), p));
+  return p.name + "  " + RangeText(p.batches.front()) + " → " +
+         WithUnit(RangeText(p.batches[batch]), p) + "; difference " + change + ", larger than " +
+         ChangeText(p, d.matters) + " with probability " + ShortNumber(d.probability, 2);
 }
 
 std::string TogetherText(const BatchTogether& together) {
@@ -41,6 +56,10 @@ std::string NumberText(const BatchNumber& n) {
 
 }  // namespace
 
+std::string ChangeText(const BatchParameter& p, double change) {
+  return p.IsLog() ? "× " + ShortNumber(change) : ShortNumber(change);
+}
+
 std::string DifferenceText(const BatchNumber& n) {
   const rigs::ShownUnit unit = rigs::ShownUnitOf(rigs::UnitOfObservable(n.name));
   return ShortNumber(unit.per_unit * n.difference) + " ± " +
@@ -53,13 +72,7 @@ std::string BatchesText(const BatchComparison& c) {
   for (const std::string& engine : c.other_engines) text += "  warning: " + engine + "\n";
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     text += "  " + c.batches[b] + ": " + c.verdicts[b - 1].text + "\n";
-    for (const BatchParameter& p : c.parameters) {
-      const BatchDifference& d = p.differences[b - 1];
-      text += "    " + p.name + "  " + RangeText(p.batches.front(), "") + " → " +
-              RangeText(p.batches[b], p.unit) + "; difference " + RangeText(d.range, "") +
-              ", larger than " + ShortNumber(d.matters) + " with probability " +
-              ShortNumber(d.probability, 2) + "\n";
-    }
+    for (const BatchParameter& p : c.parameters) text += "    " + ParameterText(p, b) + "\n";
     if (c.parameters.size() > 1) text += "    " + TogetherText(c.together[b - 1]) + "\n";
     for (const BatchPictures& p : c.pictures) {
       if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
@@ -78,13 +91,17 @@ std::string BatchesText(const BatchComparison& c) {
 
 std::string BatchesCsv(const BatchComparison& c) {
   base::Csv csv;
-  csv.Heads({"batch", "parameter", "unit", "median", "low_90", "high_90", "difference",
+  csv.Heads({"batch", "parameter", "unit", "scale", "median", "low_90", "high_90", "difference",
              "difference_low_90", "difference_high_90", "matters", "probability_larger"})
       .EndRow();
   for (std::size_t b = 0; b < c.batches.size(); ++b) {
     for (const BatchParameter& p : c.parameters) {
       const BatchRange& r = p.batches[b];
-      csv.Cell(c.batches[b]).Cell(p.name).Cell(p.unit).Cells({r.median, r.low, r.high});
+      csv.Cell(c.batches[b])
+          .Cell(p.name)
+          .Cell(p.unit)
+          .Cell(p.scale)
+          .Cells({r.median, r.low, r.high});
       if (b > 0) {
         const BatchDifference& d = p.differences[b - 1];
         csv.Cells({d.range.median, d.range.low, d.range.high, d.matters, d.probability});
@@ -97,26 +114,52 @@ std::string BatchesCsv(const BatchComparison& c) {
   return csv.Take();
 }
 
-std::string BatchesSvg(const BatchComparison& c, const BatchParameter& p) {
-  const BatchRange& first = p.batches.front();
-  const double matters = p.differences.empty() ? 0 : p.differences.front().matters;
-  double low = first.median - matters;
-  double high = first.median + matters;
+namespace {
+
+// What would matter, down and up from the first batch's median.
+std::pair<double, double> Limits(const BatchParameter& p) {
+  const double median = p.batches.front().median;
+  if (p.differences.empty()) return {median, median};
+  const double matters = p.differences.front().matters;
+  if (p.IsLog()) return {median / matters, median * matters};
+  return {median - matters, median + matters};
+}
+
+// The ranges of all batches and these limits, a tenth wider.
+SvgAxis AxisOf(const BatchParameter& p) {
+  auto [low, high] = Limits(p);
   for (const BatchRange& r : p.batches) {
     low = std::min(low, r.low);
     high = std::max(high, r.high);
   }
-  const double margin = high > low ? 0.1 * (high - low) : 1;
-  SvgChart chart(
-      {.title = "batch", .low = 0.5, .high = static_cast<double>(c.batches.size()) + 0.5},
-      {.title = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
-       .low = low - margin,
-       .high = high + margin});
+  SvgAxis axis{.title = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"), .log = p.IsLog()};
+  if (axis.log) {
+    const double factor = high > low ? std::pow(high / low, 0.1) : 2;
+    axis.low = low / factor;
+    axis.high = high * factor;
+  } else {
+    const double margin = high > low ? 0.1 * (high - low) : 1;
+    axis.low = low - margin;
+    axis.high = high + margin;
+  }
+  return axis;
+}
+
+}  // namespace
+
+std::string BatchesSvg(const BatchComparison& c, const BatchParameter& p) {
+  const BatchRange& first = p.batches.front();
+  const auto [least, most] = Limits(p);
+  SvgChart chart({.title = "batch",
+                  .low = 0.5,
+                  .high = static_cast<double>(c.batches.size()) + 0.5,
+                  .whole = true},
+                 AxisOf(p));
   const double from = 0.5;
   const double to = static_cast<double>(c.batches.size()) + 0.5;
   chart.Band({{from, first.low}, {to, first.low}}, {{from, first.high}, {to, first.high}},
              {.color = kSoft, .opacity = 0.15}, "90 % of the first batch");
-  for (const double limit : {first.median - matters, first.median + matters}) {
+  for (const double limit : {least, most}) {
     chart.Line({{from, limit}, {to, limit}}, {.color = kSoft, .width = 1, .dashed = true},
                limit < first.median ? "what would matter" : "");
   }

@@ -6,6 +6,7 @@
 #include "base/nearest.h"
 #include "base/problems.h"
 #include "base/random.h"
+#include "base/units.h"
 #include "experiments/analysis/batches/batch_warnings.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -58,18 +59,38 @@ BatchRange RangeOf(std::vector<double> values) {
   return {.median = at(0.5), .low = at(0.05), .high = at(0.95)};
 }
 
-BatchDifference DifferenceOf(const std::vector<double>& first, const std::vector<double>& second,
+bool IsLog(const journal::ParameterRecord& parameter) {
+  return parameter.scale == base::NameOf(optimizer::Scale::kLog);
+}
+
+// A value on the scale that the parameter is searched on.
+double Scaled(const journal::ParameterRecord& parameter, double value) {
+  return IsLog(parameter) ? std::log(value) : value;
+}
+
+double Unscaled(const journal::ParameterRecord& parameter, double value) {
+  return IsLog(parameter) ? std::exp(value) : value;
+}
+
+// Of parameter `p`; `matters` as in BatchDifference.
+BatchDifference DifferenceOf(const Batch& first, const Batch& batch, std::size_t p,
                              double matters) {
+  const journal::ParameterRecord& parameter = first.view.record.parameters[p];
   std::vector<double> difference;
-  for (std::size_t i = 0; i < first.size(); ++i) difference.push_back(second[i] - first[i]);
+  for (std::size_t i = 0; i < first.draws.size(); ++i) {
+    difference.push_back(Scaled(parameter, batch.draws[i][p]) -
+                         Scaled(parameter, first.draws[i][p]));
+  }
+  const double least = Scaled(parameter, matters);
   const auto larger =
-      std::ranges::count_if(difference, [&](double d) { return std::abs(d) > matters; });
-  BatchDifference found{
-      .range = RangeOf(difference),
-      .matters = matters,
-      .probability = static_cast<double>(larger) / static_cast<double>(difference.size())};
-  found.is_found = found.range.low > 0 || found.range.high < 0;
-  return found;
+      std::ranges::count_if(difference, [&](double d) { return std::abs(d) > least; });
+  const BatchRange range = RangeOf(difference);
+  return {.range = {.median = Unscaled(parameter, range.median),
+                    .low = Unscaled(parameter, range.low),
+                    .high = Unscaled(parameter, range.high)},
+          .matters = matters,
+          .probability = static_cast<double>(larger) / static_cast<double>(difference.size()),
+          .is_found = range.low > 0 || range.high < 0};
 }
 
 // A batch's draws on the scales of the first batch's parameters.
@@ -79,10 +100,8 @@ Eigen::MatrixXd ScaledDraws(const Batch& batch, const Batch& first) {
                          static_cast<Eigen::Index>(parameters.size()));
   for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
     for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
-      const double value = batch.draws[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-      const bool log =
-          parameters[static_cast<std::size_t>(k)].scale == base::NameOf(optimizer::Scale::kLog);
-      scaled(i, k) = log ? std::log(value) : value;
+      const auto p = static_cast<std::size_t>(k);
+      scaled(i, k) = Scaled(parameters[p], batch.draws[static_cast<std::size_t>(i)][p]);
     }
   }
   return scaled;
@@ -109,12 +128,24 @@ void RequireSameParameters(const std::vector<Batch>& batches) {
   }
 }
 
-double MatterOf(const std::string& parameter, const std::string& text) {
+// As it is given; of a logarithmic parameter a factor.
+double MatterOf(const journal::ParameterRecord& parameter, const std::string& text) {
   try {
-    return campaign::ParseProperty(parameter, text);
+    return IsLog(parameter) ? base::ParseQuantity(text, base::Dimension::kNone)
+                            : campaign::ParseProperty(parameter.name, text);
   } catch (const base::ConfigError& error) {
-    throw base::ConfigError("--matters " + parameter + ": " + error.what());
+    throw base::ConfigError("--matters " + parameter.name + ": " + error.what() +
+                            (IsLog(parameter) ? "; it was searched on a logarithmic scale: give a "
+                                                "factor, such as 1.5"
+                                              : ""));
   }
+}
+
+// A tenth of the searched range.
+double UsualMatter(const journal::ParameterRecord& parameter) {
+  constexpr double kShare = 0.1;
+  return Unscaled(parameter,
+                  kShare * (Scaled(parameter, parameter.high) - Scaled(parameter, parameter.low)));
 }
 
 std::vector<double> MattersOf(const Batch& first, const std::map<std::string, std::string>& given) {
@@ -122,11 +153,11 @@ std::vector<double> MattersOf(const Batch& first, const std::map<std::string, st
   base::Problems problems;
   const std::vector<std::string> names = NamesOf(first);
   for (const journal::ParameterRecord& p : first.view.record.parameters) {
-    constexpr double kShare = 0.1;  // of the searched range
     const auto own = given.find(p.name);
-    matters.push_back(own == given.end() ? kShare * (p.high - p.low)
-                                         : MatterOf(p.name, own->second));
-    problems.Require(matters.back() > 0, "--matters " + p.name, matters.back(), "must be positive");
+    matters.push_back(own == given.end() ? UsualMatter(p) : MatterOf(p, own->second));
+    problems.Require(
+        matters.back() > (IsLog(p) ? 1 : 0), "--matters " + p.name, matters.back(),
+        IsLog(p) ? "must be a factor above 1: the scale is logarithmic" : "must be positive");
   }
   for (const auto& [name, value] : given) {
     if (std::ranges::find(names, name) != names.end()) continue;
@@ -335,12 +366,11 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
   }
   for (std::size_t p = 0; p < counts.size(); ++p) {
     const journal::ParameterRecord& record = batches.front().view.record.parameters[p];
-    BatchParameter parameter{.name = record.name, .unit = record.unit};
-    const std::vector<double> first = Column(batches.front(), p);
+    BatchParameter parameter{.name = record.name, .unit = record.unit, .scale = record.scale};
     for (std::size_t b = 0; b < batches.size(); ++b) {
-      const std::vector<double> values = Column(batches[b], p);
-      parameter.batches.push_back(RangeOf(values));
-      if (b > 0) parameter.differences.push_back(DifferenceOf(first, values, counts[p]));
+      parameter.batches.push_back(RangeOf(Column(batches[b], p)));
+      if (b == 0) continue;
+      parameter.differences.push_back(DifferenceOf(batches.front(), batches[b], p, counts[p]));
     }
     comparison.parameters.push_back(std::move(parameter));
   }
@@ -352,13 +382,11 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
       comparison.pictures.push_back(ComparePictures(batches.front(), batches[b], e));
     }
   }
-  for (std::size_t b = 1; b < batches.size(); ++b) {
-    comparison.verdicts.push_back(VerdictOf(comparison, b));
-  }
   const auto warn = [&](const std::vector<std::string>& more) {
     comparison.warnings.insert(comparison.warnings.end(), more.begin(), more.end());
   };
   for (std::size_t b = 1; b < batches.size(); ++b) {
+    comparison.verdicts.push_back(VerdictOf(comparison, b));
     const JointView& first = batches.front().view;
     if (const std::string engine = OtherEngine(first, batches[b].view); !engine.empty()) {
       comparison.other_engines.push_back(engine);

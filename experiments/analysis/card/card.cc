@@ -145,7 +145,8 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
                            .unit = p.unit,
                            .value = p.value,
                            .low = p.credible_low,
-                           .high = p.credible_high});
+                           .high = p.credible_high,
+                           .prior = p.prior ? p.prior->text : ""});
   }
   return card;
 }

@@ -30,6 +30,7 @@ struct CardRange {
   double value = 0;
   double low = std::numeric_limits<double>::quiet_NaN();  // NaN: of one draw, which has none
   double high = std::numeric_limits<double>::quiet_NaN();
+  std::string prior{};  // as the spec gives it: "0.35 ± 0.05"; empty: none
 };
 
 // A class of the grains as they are simulated.

@@ -34,8 +34,7 @@ std::string DeckMark(CardFormat format) {
 // ", 90 %: 0.2 ... 0.4" of a calibrated parameter.
 std::string RangeOfPlaceholder(const Card& card, const std::string& name) {
   const auto range = std::ranges::find(card.ranges, name, &CardRange::name);
-  if (range == card.ranges.end() || !std::isfinite(range->low)) return "";
-  return ", 90 %: " + CardNumber(range->low) + " ... " + CardNumber(range->high);
+  return range == card.ranges.end() ? "" : CardRangeText(*range);
 }
 
 std::string DeckJson(const Card& card) {

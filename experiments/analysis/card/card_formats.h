@@ -19,6 +19,9 @@ std::string MercuryDpmCard(const Card& card);
 // Six significant digits, as the codes read numbers: "2.625e+07".
 std::string CardNumber(double value);
 
+// ", 90 %: 0.2 ... 0.4 (prior 0.35 ± 0.05)"; "" of one draw.
+std::string CardRangeText(const CardRange& range);
+
 // What the values hold for, one line each, behind `mark` ("# ", "// ").
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark);
 

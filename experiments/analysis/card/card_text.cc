@@ -14,6 +14,12 @@ namespace talus::analysis {
 
 std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
 
+std::string CardRangeText(const CardRange& range) {
+  if (!std::isfinite(range.low)) return "";
+  return ", 90 %: " + CardNumber(range.low) + " ... " + CardNumber(range.high) +
+         (range.prior.empty() ? "" : " (prior " + base::OneLine(range.prior) + ")");
+}
+
 nlohmann::ordered_json RangesJson(const Card& card) {
   nlohmann::ordered_json ranges;
   for (const CardRange& r : card.ranges) {
@@ -22,6 +28,7 @@ nlohmann::ordered_json RangesJson(const Card& card) {
                       {"value", r.value},
                       {"low_90", base::ToJson(r.low)},
                       {"high_90", base::ToJson(r.high)}});
+    if (!r.prior.empty()) ranges.back()["prior"] = r.prior;
   }
   return ranges;
 }
@@ -149,9 +156,7 @@ std::string TableCard(const Card& card) {
   std::ostringstream text;
   text << CardHead(card, "any code (definitions: docs/physics.md)", "");
   for (const CardRange& r : card.ranges) {
-    text << "  " << r.name << " = " << CardNumber(r.value) << ' ' << r.unit
-         << (std::isfinite(r.low) ? ", 90 %: " + CardNumber(r.low) + " ... " + CardNumber(r.high)
-                                  : std::string())
+    text << "  " << r.name << " = " << CardNumber(r.value) << ' ' << r.unit << CardRangeText(r)
          << '\n';
   }
   for (const CardMaterial& m : card.materials) {

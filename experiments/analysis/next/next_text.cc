@@ -8,6 +8,7 @@
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/next/test_design.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -103,6 +104,11 @@ bool IsImpossible(const NextCandidate& c) {
   return c.kind == NextKind::kTest && c.num_simulations == 0;
 }
 
+// Simulations of its design that are still to be made tell what it would teach.
+bool NeedsSimulations(const NextCandidate& c) {
+  return c.kind == NextKind::kTest && !c.learning && !IsImpossible(c) && c.num_made < kDesignSize;
+}
+
 // "   18 %", "   <1 %": as wide for every share.
 std::string ShareText(double share) {
   const std::string percent = share < 0.01 ? "<1" : std::to_string(std::lround(100 * share));
@@ -112,7 +118,7 @@ std::string ShareText(double share) {
 std::string CandidateText(const NextTable& table, const NextCandidate& c) {
   if (IsImpossible(c)) return "     -   " + c.name + ": " + c.what + "\n";
   const std::string step = "  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
-  if (!c.learning) return "     ? " + step;
+  if (!c.learning) return (NeedsSimulations(c) ? "     ? " : "     - ") + step;
   return ShareText(c.remaining) + step + "         expected to leave " +
          (table.goal ? GoalWidthText(*table.goal, c.learning->goal_half_width) + " of the goal, "
                      : "") +
@@ -169,7 +175,7 @@ std::string NextText(const NextTable& table) {
   bool unknown = false;
   for (const NextCandidate& c : table.candidates) {
     text += CandidateText(table, c);
-    unknown |= !c.learning && !IsImpossible(c);
+    unknown |= NeedsSimulations(c);
   }
   if (unknown) {
     text +=
@@ -220,6 +226,7 @@ std::string NextJson(const NextTable& table) {
                                      {"core_time_s", c.core_time},
                                      {"num_made", c.num_made},
                                      {"core_time_made_s", c.core_time_made}};
+    candidate["needs_simulations"] = NeedsSimulations(c);
     candidate["remaining"] = c.learning ? nlohmann::ordered_json(c.remaining) : nullptr;
     candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
     candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;

@@ -1,5 +1,10 @@
 #include "experiments/analysis/report/write_report.h"
 
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <vector>
+
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "experiments/analysis/report/data/tables.h"
@@ -20,13 +25,38 @@ std::string OwnFolder(const Evidence& evidence) {
   return "experiment_" + std::to_string(evidence.experiment + 1);
 }
 
+using Names = std::vector<std::string>;
+
+void RemoveFormer(const std::filesystem::path& folder, const Names& begin_so) {
+  for (const std::string& former : begin_so) base::RemoveFormerFiles(folder, former);
+}
+
+// The folders of experiments that have another name since, or stand first now.
+void RemoveFormerExperiments(const ReportData& data, const std::filesystem::path& folder,
+                             const Names& begin_so) {
+  std::vector<std::filesystem::path> former;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto is_it = [&](const ReportData& other) {
+      return OwnFolder(other.evidence) == entry.path().filename();
+    };
+    if (entry.is_directory() && std::ranges::none_of(data.others, is_it)) {
+      former.push_back(entry.path());
+    }
+  }
+  for (const std::filesystem::path& experiment : former) {
+    RemoveFormer(experiment, begin_so);
+    std::error_code has_others;  // files of the user's
+    std::filesystem::remove(experiment, has_others);
+  }
+}
+
 // Each experiment's in a folder of its own, the shown one's in `folder`.
 void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  for (const char* former :
-       {"next_", "predict_", "remains_", "anhp_trial_", "signed_map_trial_", "heap_"}) {
-    base::RemoveFormerFiles(folder, former);
-  }
+  const Names pictures{"aehp",  "anhp_trial_", "signed_map_trial_", "heap_",
+                       "next_", "predict_",    "remains_"};
+  RemoveFormer(folder, pictures);
+  RemoveFormerExperiments(data, folder, pictures);
   for (const Picture& picture : data.pictures) WritePicture(folder, picture);
   for (const RepresentativeView& view : data.representative) WritePicture(folder, view.heap);
   if (data.next_table) {
@@ -45,9 +75,11 @@ void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
 // … and so are the tables.
 void WriteTables(const ReportData& data, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
+  Names files;
   for (const NamedText& table : ReportTables(data)) {
-    base::WriteFileAtomically(folder / (table.name + ".csv"), table.text);
+    base::WriteFileAtomically(folder / files.emplace_back(table.name + ".csv"), table.text);
   }
+  RemoveFormerExperiments(data, folder, files);
   for (const ReportData& other : data.others) {
     WriteTables(other, folder / OwnFolder(other.evidence));
   }

@@ -133,8 +133,11 @@ std::string AnswerTable(const SearchFolder& search) {
 
 std::string Answer(const SearchFolder& search) {
   if (!search.answer) {
-    return "<p>There is none before the search ends. The same `talus optimize` goes on with "
-           "it.</p>\n";
+    return "<p>" +
+           WithCode(
+               "There is none before the search ends. The same `talus optimize` goes on with "
+               "it.") +
+           "</p>\n";
   }
   const SearchAnswer& answer = *search.answer;
   std::string text = AnswerTable(search);
@@ -148,7 +151,7 @@ std::string Answer(const SearchFolder& search) {
   text += "Share of the ranges that ties with the recommendation: " + Print(answer.tied_volume) +
           ".</p>\n<p class=\"note\">" + base::MarkupText(answer.model) + "</p>\n";
   for (const std::string& warning : answer.warnings) {
-    text += "<p class=\"notice\">" + base::MarkupText(warning) + "</p>\n";
+    text += "<p class=\"notice\">" + WithCode(warning) + "</p>\n";
   }
   return text;
 }

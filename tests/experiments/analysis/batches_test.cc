@@ -146,27 +146,35 @@ class BatchesTest : public campaign::CampaignFixture {
  protected:
   // A campaign that has met a heap of these, from which so much has fallen.
   fs::path Run(const std::string& name, double sliding, const std::string& fallen = "23 mg",
-               const std::string& more = "") const {
-    static campaign::FinishedCampaigns<std::tuple<double, std::string, std::string>> campaigns;
-    campaigns.Copy({sliding, fallen, more}, scratch_.path() / name,
-                   [&](const fs::path& in) { Finish(in, sliding, fallen, more); });
+               const std::string& more = "", const std::string& scale = "linear") const {
+    static campaign::FinishedCampaigns<std::tuple<double, std::string, std::string, std::string>>
+        campaigns;
+    campaigns.Copy({sliding, fallen, more, scale}, scratch_.path() / name, [&](const fs::path& in) {
+      Finish(in, {.sliding = sliding, .fallen = fallen, .more = more, .scale = scale});
+    });
     return scratch_.path() / name;
   }
 
  private:
-  static void Finish(const fs::path& scratch, double sliding, const std::string& fallen,
-                     const std::string& more) {
+  struct Made {
+    double sliding = 0;
+    std::string fallen;
+    std::string more;
+    std::string scale;  // of the sliding friction
+  };
+  static void Finish(const fs::path& scratch, const Made& made) {
     const fs::path spec = campaign::WriteFakeSpec(scratch / "in",
                                                   R"(, "budget": {"simulations": 24},
-        "confirm": {"candidates": 0}, "workers": 1)" + more);
-    imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(sliding, 0.2, 12345));
+        "confirm": {"candidates": 0}, "workers": 1)" + made.more);
+    imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(made.sliding, 0.2, 12345));
     std::string text = base::ReadFile(spec);
     const auto replace = [&](const std::string& from, const std::string& to) {
       text.replace(text.find(from), from.size(), to);
     };
     replace(R"("experiment": {)",
             R"("experiments": [{"name": "heap", "mass_fallen": {"sd": "1 mg", "value": ")" +
-                fallen + R"("}, )");
+                made.fallen + R"("}, )");
+    replace(R"("max": 0.8})", R"("max": 0.8, "scale": ")" + made.scale + "\"}");
     replace(R"("10 mm"}},)", R"("10 mm"}}],)");
     std::ofstream(spec) << text;
     campaign::BeginCampaign(spec, scratch / "run");
@@ -202,6 +210,41 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   const std::string page = BatchesPage(c);
   EXPECT_THAT(page, HasSubstr("differs: sliding_friction by 0."));
   EXPECT_EQ(Count(page, "<svg"), 2);  // a chart a parameter
+}
+
+// On a linear scale a tenth of the range mattered at its low end as at its high one.
+TEST_F(BatchesTest, OfALogarithmicParameterTheFactorCounts) {
+  const fs::path first = Run("first", 0.4, "23 mg", "", "log");
+  const fs::path shifted = Run("shifted", 0.6, "23 mg", "", "log");
+  const BatchComparison c = CompareBatches({first, shifted}, {{"sliding_friction", "1.2"}});
+  const BatchDifference& sliding = c.parameters[0].differences[0];
+  EXPECT_NEAR(sliding.range.median, 1.5, 0.15);
+  EXPECT_TRUE(sliding.is_found);
+  EXPECT_GT(sliding.probability, 0.9);
+  EXPECT_THAT(c.verdicts[0].text, HasSubstr("sliding_friction by a factor of 1."));
+  EXPECT_THAT(BatchesText(c), HasSubstr("larger than × 1.2 with"));
+  // A tenth of the range from 0.1 to 0.8 is the tenth root of 8.
+  EXPECT_NEAR(CompareBatches({first, shifted}, {}).parameters[0].differences[0].matters,
+              std::pow(8, 0.1), 1e-12);
+  EXPECT_THROW(CompareBatches({first, shifted}, {{"sliding_friction", "0.1"}}), base::ConfigError);
+}
+
+// The first batch from 10 to 40 µJ/m², the other twice that.
+TEST(BatchesText, DifferencesOfEnergiesAreFactorsAndThoseOfLinearOnesHaveTheirUnit) {
+  BatchComparison c{.batches = {"a", "b"}};
+  c.parameters = {{.name = "surface_energy", .unit = "J/m2", .scale = "log"}};
+  BatchParameter& energy = c.parameters[0];
+  energy.batches = {{.median = 2e-5, .low = 1e-5, .high = 4e-5},
+                    {.median = 4e-5, .low = 2e-5, .high = 8e-5}};
+  energy.differences = {
+      {.range = {.median = 2, .low = 1.2, .high = 3}, .matters = 1.5, .is_found = true}};
+  c.together = {{.batch = "b", .is_found = true}};
+  EXPECT_EQ(VerdictOf(c, 1).text, "differs: surface_energy by a factor of 2");
+  c.verdicts = {VerdictOf(c, 1)};
+  EXPECT_THAT(BatchesText(c), HasSubstr("difference × 2 (90 % in 1.2 … 3), larger than × 1.5"));
+  EXPECT_THAT(BatchesSvg(c, energy), HasSubstr("10⁻⁵"));  // a tick of a logarithmic axis
+  energy.scale = "linear";
+  EXPECT_EQ(VerdictOf(c, 1).text, "differs: surface_energy by 2 J/m2");
 }
 
 // 28 ± 1 and 23 ± 1 mg: -5 ± 1.41, which chance alone makes once in 2500.
@@ -254,6 +297,11 @@ TEST_F(BatchesTest, OtherEnginesAreSaidFirst) {
   const std::string text = BatchesText(
       {.batches = {"a", "b"}, .verdicts = {{.text = "equal"}}, .other_engines = {"engines"}});
   EXPECT_LT(text.find("warning: engines"), text.find("b: equal"));
+  const std::string page = BatchesPage({.batches = {"a", "b"},
+                                        .together = {{.batch = "b"}},
+                                        .verdicts = {{.text = "equal"}},
+                                        .warnings = {"`talus resume b` goes on"}});
+  EXPECT_THAT(page, HasSubstr("<code>talus resume b</code> goes on"));
 }
 
 // The first of one campaign was set against the first of the other, whatever they were.

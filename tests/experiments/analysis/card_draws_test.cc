@@ -17,6 +17,7 @@ namespace talus::analysis {
 namespace card_draws_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 using CardDrawsTest = campaign::CampaignFixture;
@@ -26,6 +27,11 @@ TEST_F(CardDrawsTest, AreFilesInEveryFormatWithTheirSetsAndWeights) {
       "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)");
   EXPECT_THROW(ReadDrawCards(folder, 5), base::ConfigError);  // no result yet
   campaign::RunFake(folder, {});
+  Card recommended = ReadCard(folder);
+  EXPECT_THAT(CardText(recommended, CardFormat::kTable), Not(HasSubstr("prior")));
+  recommended.ranges[0].prior = "0.35 ± 0.05";
+  EXPECT_THAT(CardText(recommended, CardFormat::kTable), HasSubstr(" (prior 0.35 ± 0.05)\n"));
+  EXPECT_THAT(CardText(recommended, CardFormat::kJson), HasSubstr("\"prior\": \"0.35 ± 0.05\""));
   const std::vector<DrawCard> cards = ReadDrawCards(folder, 5);
   ASSERT_EQ(cards.size(), 5u);
   double sum = 0;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/next/advise.h"
+#include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "tests/experiments/next_fixture.h"
 
@@ -94,6 +95,7 @@ TEST_F(NextCandidates, WhatAddExperimentWouldRefuseIsNotRanked) {
               HasSubstr("cannot be simulated: fast: device.lift_velocity"));
   EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
   EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
+  EXPECT_THAT(NextJson(table), testing::Not(HasSubstr("\"needs_simulations\": true")));
   EXPECT_FALSE(fs::exists(folder_ / "next"));
 }
 
@@ -164,6 +166,18 @@ TEST_F(NextCandidates, ADeckSimulatesOnlyTheTestsThatItTakes) {
   EXPECT_THAT(Find(Rank(view, {wide}, true), "wide").what, HasSubstr("cannot be simulated: "));
   std::ofstream(deck / "in.heap", std::ios::app) << "{{ plate_radius }}";
   EXPECT_EQ(WhyNot(view, wide), "");
+}
+
+// It was asked for simulations that it had already.
+TEST(NextText, ATestThatTellsNothingIsNotAskedToBeSimulated) {
+  NextCandidate mute{
+      .name = "mute", .what = "tells nothing", .num_simulations = 20, .num_made = 16};
+  NextTable table;
+  table.candidates = {mute};
+  EXPECT_THAT(NextText(table), HasSubstr("     -   mute: tells nothing"));
+  EXPECT_THAT(NextText(table), testing::Not(HasSubstr("?:")));
+  table.candidates[0].num_made = 4;
+  EXPECT_THAT(NextText(table), HasSubstr("     ?   mute: tells nothing"));
 }
 
 }  // namespace next_candidates_test

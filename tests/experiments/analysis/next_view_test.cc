@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/next_table_view.h"
 #include "experiments/analysis/report/write_report.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "imaging/formats/images/image_file.h"
 #include "tests/experiments/synthetic_campaign.h"
 
@@ -20,6 +20,8 @@ namespace talus::analysis {
 namespace next_view_test {
 
 using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -85,17 +87,40 @@ TEST(NextTable, ForAGoalHasItsColumnInTheUnitThatPeopleRead) {
 TEST(NextTable, MadeBeforeTheLastTrialsIsCalledOutdated) {
   std::string old = kNextJson;
   old.replace(old.find("60"), 2, "59");
-  EXPECT_TRUE(ReadNextTable(WithNext("old", old))->is_outdated);
+  LeftOut none;
+  EXPECT_TRUE(ReadNextTable(WithNext("old", old), none)->is_outdated);
 }
 
-TEST(NextTable, ADamagedOneIsNamedWithTheRemedy) {
-  try {
-    ReadNextTable(WithNext("damaged", R"({"candidates": 3})"));
-    FAIL();
-  } catch (const base::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("next.json"));
-    EXPECT_THAT(error.what(), HasSubstr("run it again"));
-  }
+// All that was not known had a "?", and the advice to simulate it.
+TEST(NextTable, WhatNoSimulationWillTellIsNotAskedToBeSimulated) {
+  json table = json::parse(kNextJson);
+  json silent = table["candidates"][1], impossible = silent;
+  silent["needs_simulations"] = false;  // they are made
+  impossible["what"] = "cannot be simulated: no plate";
+  impossible["num_simulations"] = 0;
+  table["candidates"].insert(table["candidates"].end(), {silent, impossible});
+  const json next = json::parse(PageJson(MakeReportData(WithNext("silent", table.dump()))))["next"];
+  const auto needs = [&](std::size_t i) { return next["candidates"][i]["needs_simulations"]; };
+  EXPECT_EQ(needs(0), false);
+  EXPECT_EQ(needs(1), true);
+  EXPECT_EQ(needs(2), false);
+  EXPECT_EQ(needs(3), false);
+}
+
+TEST(NextTable, ADamagedOneIsLeftOutAndNamedWithTheRemedy) {
+  const ReportData data = MakeReportData(WithNext("damaged", R"({"candidates": 3})"));
+  EXPECT_FALSE(data.next_table);
+  EXPECT_THAT(data.left_out, ElementsAre(AllOf(HasSubstr("next.json"), HasSubstr("run it again"))));
+}
+
+// The whole table went with it.
+TEST(NextTable, ADamagedPictureIsLeftOutAlone) {
+  const Evidence evidence = WithNext("picture", kNextJson);
+  base::WriteFileAtomically(evidence.folder / "next/wide-plate.png", "no picture");
+  const ReportData data = MakeReportData(evidence);
+  ASSERT_TRUE(data.next_table);
+  EXPECT_EQ(data.next_table->candidates.size(), 2u);
+  EXPECT_THAT(data.left_out, ElementsAre(HasSubstr("wide-plate.png")));
 }
 
 // The folder of a synthetic campaign with what `talus predict` leaves there.
@@ -147,8 +172,40 @@ TEST(Predictions, StandOnThePageWithTheirPicturesInTheUnitsThatPeopleRead) {
                                       "report/figures/predict_mixer_mean_profile.png"));
 }
 
-TEST(Predictions, ADamagedFileIsNamed) {
-  EXPECT_THROW(MakeReportData(WithPrediction("damaged", "{\"name\": 3}")), base::ConfigError);
+TEST(Predictions, ADamagedFileIsLeftOutAndNamedOnThePage) {
+  const ReportData data = MakeReportData(WithPrediction("damaged", "{\"name\": 3}"));
+  EXPECT_TRUE(data.predictions.empty());
+  const json page = json::parse(PageJson(data));
+  ASSERT_EQ(page["left_out"].size(), 1u);
+  EXPECT_THAT(page["left_out"][0].get<std::string>(), HasSubstr("mixer/prediction.json"));
+}
+
+TEST(Predictions, ADamagedPictureIsLeftOutAlone) {
+  const Prediction prediction{.name = "mixer", .test = "drum", .mean_profile = "mean_profile.png"};
+  const Evidence evidence = WithPrediction("picture", base::JsonText(base::ToJson(prediction), 2));
+  base::WriteFileAtomically(evidence.folder / "predict/mixer/mean_profile.png", "");
+  const ReportData data = MakeReportData(evidence);
+  ASSERT_EQ(data.predictions.size(), 1u);
+  EXPECT_TRUE(data.predictions[0].mean.png.empty());
+  EXPECT_THAT(data.left_out, ElementsAre(HasSubstr("mean_profile.png")));
+}
+
+// Heaps and maps only add to a report; one damaged file of them was the end of all of it.
+TEST(LeftOut, ADamagedHeapOrMapIsNamedAndTheReportMadeWithoutIt) {
+  Evidence evidence = WithPrediction("heap", "{}");
+  std::filesystem::remove_all(evidence.folder / "predict");
+  const int trial = ConfirmingTrial(evidence)->id;
+  const std::filesystem::path folder = campaign::CampaignFolder{evidence.folder}.trial(trial);
+  std::filesystem::create_directories(folder);
+  base::WriteFileAtomically(folder / "heap.vtp", "<VTKFile type=");
+  base::WriteFileAtomically(evidence.folder / "map.png", "no picture");
+  evidence.answer->remains = {
+      {.experiment = evidence.experiments[evidence.experiment], .file = "map.png"}};
+  const ReportData data = MakeReportData(evidence);
+  EXPECT_THAT(data.left_out,
+              testing::UnorderedElementsAre(HasSubstr("heap.vtp"), HasSubstr("map.png")));
+  ASSERT_FALSE(data.representative.empty());
+  EXPECT_TRUE(data.representative[0].heap.png.empty());
 }
 
 }  // namespace next_view_test

@@ -105,6 +105,8 @@ TEST_F(Report, TablesHaveARowForEachTrialAndUnitsInTheirHeads) {
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'),
             static_cast<std::ptrdiff_t>(Data().evidence.trials.size()) + 1);
   const std::string best = Table("ten_best");
+  EXPECT_THAT(best, StartsWith("objective,rank,unit,quantity,"));
+  EXPECT_THAT(Table("objectives"), HasSubstr("\nsad,trials,sad_mm2,mm2,"));
   EXPECT_EQ(std::count(best.begin(), best.end(), '\n'), 1 + 5 * 10);
 }
 
@@ -248,7 +250,6 @@ TEST_F(Report, PageHoldsTheHeadlineWithSymbolsAndTheBranches) {
   EXPECT_EQ(headline["sentences"][0], "Sets are found that fit every measurement.");
   EXPECT_THAT(headline["sentences"].back().get<std::string>(),
               HasSubstr("rolling friction μᵣ given sliding friction μₜ, not both"));
-  EXPECT_EQ(headline["traded"], json({0, 1}));
   EXPECT_EQ(headline["branches"].size(), 1u);
   EXPECT_EQ(headline["fits"], true);
   EXPECT_THAT(page["warnings"][0].get<std::string>(), HasSubstr("are known together only"));
@@ -276,32 +277,6 @@ TEST(Labels, TheWordsDoNotSayTheBodyThatTheSymbolNames) {
   EXPECT_EQ(LongNameOf("plate_pair_sliding_friction"), "sliding friction μₜ powder–plate");
   EXPECT_EQ(LongNameOf("tube_surface_energy"), "surface energy γ tube");
   EXPECT_EQ(LongNameOf("hopper_angle"), "hopper_angle");
-}
-
-// The synthetic valley is a normal of 0.18 along and 0.02 across: in two dimensions its joint 90 %
-// region reaches to 2.15 standard deviations, a range for both at once to some 1.8, and across it
-// 3.3 · 0.02 · 1.3 holds 90 %, more where the valley bends. Each is 0.699 wide in the unit cube.
-TEST(WidthViews, SeveralRangesOfAParameterStandBesideEachOtherAndSayWhatTheyAre) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.answer->posterior->alone = {
-      {.name = "heap", .values = {0.3, 0.2}, .low = {0.1, 0.05}, .high = {0.6, 0.4}}};
-  const std::vector<WidthView> views = WidthViews(evidence);
-  ASSERT_EQ(views.size(), 4u);
-  const auto width = [&](std::size_t view) {
-    return evidence.parameters[0].range.ToUnit(views[view].high[0]) -
-           evidence.parameters[0].range.ToUnit(views[view].low[0]);
-  };
-  EXPECT_EQ(views[0].low[0], evidence.answer->parameters[0].credible_low);
-  EXPECT_GT(width(1), 1.05 * width(0));
-  EXPECT_LT(width(1), 1.4 * width(0));
-  EXPECT_LT(width(2), 0.35 * width(0));
-  EXPECT_GT(width(2), 3 * 0.02);
-  EXPECT_EQ(views[3].title, "heap alone");
-  EXPECT_EQ(views[3].high[1], 0.4);
-  for (const WidthView& view : views) EXPECT_GT(view.means.size(), 30u) << view.title;
-  const json page = json::parse(PageJson(MakeReportData(evidence)))["headline"]["widths"];
-  EXPECT_EQ(page.size(), 4u);
-  EXPECT_TRUE(WidthViews(test::MakeSyntheticCampaign({.num_trials = 12})).empty());  // no model
 }
 
 TEST(RegionHistory, HasOnePointForEachNumberOfTrials) {
@@ -364,13 +339,23 @@ TEST(WriteReport, TablesOfFurtherExperimentsStandInFoldersOfTheirOwn) {
   EXPECT_EQ(lines("wide plate/trials.csv"), 4);
   EXPECT_EQ(lines("experiment_3/trials.csv"), 5);
   EXPECT_FALSE(std::filesystem::exists(folder / "trials.csv"));
+  // One that has another name since; a file of the user's keeps its folder.
+  base::WriteFileAtomically(folder / "tables/experiment_3/mine.txt", "mine");
+  shown.experiments = others[0].experiments = others[1].experiments = {"heap", "wide", "third"};
+  WriteReport(MakeReportData(shown, others), folder);
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables/wide plate"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures/wide plate"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables/experiment_3/trials.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "tables/experiment_3/mine.txt"));
+  EXPECT_EQ(lines("wide/trials.csv"), 4);
   std::filesystem::remove_all(folder);
 }
 
 TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {
   Evidence evidence = test::MakeSyntheticCampaign();
   evidence.answer->representative = {{0.1, 0.5, 1e-5}, test::SyntheticTruth(), {0.6, 0.1, 3e-5}};
-  const auto views = RepresentativeViews(evidence);
+  LeftOut none;
+  const auto views = RepresentativeViews(evidence, none);
   ASSERT_EQ(views.size(), 3u);
   EXPECT_TRUE(views[1].is_recommended);
   EXPECT_DOUBLE_EQ(views[1].values[0], evidence.answer->parameters[0].value);
@@ -403,6 +388,7 @@ TEST(GatherEvidence, ACampaignThatWasKilledIsNotRunning) {
                               folder);
   const Evidence evidence = GatherEvidence(folder, "");
   EXPECT_EQ(evidence.state, "ended without a word");
+  EXPECT_EQ(json::parse(PageJson(MakeReportData(evidence)))["campaign"]["ended_silently"], true);
   EXPECT_TRUE(std::isnan(evidence.seconds_left));
   std::filesystem::remove_all(folder);
 }

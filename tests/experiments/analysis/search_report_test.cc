@@ -87,6 +87,7 @@ TEST_F(SearchReport, ShowsASearchThatHasNotEnded) {
   const std::string page = SearchPage(Read());
   EXPECT_THAT(page, HasSubstr("3 of at most 4 evaluations, 1 failed"));
   EXPECT_THAT(page, HasSubstr("has not ended"));
+  EXPECT_THAT(page, HasSubstr("<code>talus optimize</code>"));
   EXPECT_THAT(page, HasSubstr("<svg"));
 }
 

@@ -22,6 +22,19 @@ TEST(SvgChart, PutsValuesWhereTheyBelong) {
   EXPECT_EQ(chart.Text().find("<circle"), chart.Text().rfind("<circle"));
 }
 
+TEST(SvgChart, IsAnImageWithAName) {
+  SvgChart chart({.title = "x < 1"}, {.title = "y"});
+  EXPECT_THAT(chart.Text(), HasSubstr("role=\"img\""));
+  EXPECT_THAT(chart.Text(), HasSubstr("<title>y over x &lt; 1</title>"));
+}
+
+TEST(SvgChart, AnAxisOfNumbersHasNoHalves) {
+  SvgChart chart({.title = "batch", .low = 0.5, .high = 2.5, .whole = true}, {.title = "y"});
+  EXPECT_THAT(chart.Text(), HasSubstr(">1</text>"));
+  EXPECT_THAT(chart.Text(), HasSubstr(">2</text>"));
+  EXPECT_THAT(chart.Text(), Not(HasSubstr(">1.5</text>")));
+}
+
 TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
   const std::string chart = SvgChart({.title = "γ (J/m²)", .low = 1e-6, .high = 1e-2, .log = true},
                                      {.title = "cost", .low = 0, .high = 4e6})

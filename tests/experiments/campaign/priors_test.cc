@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "experiments/analysis/card/card.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/nuisances.h"
@@ -87,6 +88,9 @@ TEST_F(Priors, WhatIsNotMeasuredKeepsItsPrior) {
   const ConsideredSet set = ConsiderSet(
       scratch_.path() / "kept", {{"sliding_friction", "0.45"}, {"rolling_friction", "0.2"}});
   EXPECT_THAT(ConsideredText(set), HasSubstr("rolling_friction: prior 0.2 ± 0.02, 90 % in"));
+  const analysis::Card card = analysis::ReadCard(scratch_.path() / "kept");
+  EXPECT_EQ(card.ranges[0].prior, "");
+  EXPECT_EQ(card.ranges[1].prior, "0.2 ± 0.02");
 }
 
 TEST_F(Priors, AMeasurementThatContradictsThePriorIsAnAlarm) {

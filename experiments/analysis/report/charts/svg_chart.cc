@@ -60,7 +60,8 @@ std::vector<double> EvenTicks(const SvgAxis& axis) {
   const double rough = (axis.high - axis.low) / 5;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   const double factor = rough / power;
-  const double step = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
+  const double round = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
+  const double step = axis.whole ? std::max(round, 1.0) : round;
   if (!(step > 0)) return {axis.low};
   const double first = std::ceil(axis.low / step - 1e-9);
   std::vector<double> ticks;
@@ -216,8 +217,9 @@ std::string SvgChart::Text() const {
   const double top = 14 + kLegendLine * static_cast<double>(legend_.size());
   const std::string height = Pixel(top + plot_height_ + kBottom);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Pixel(kWidth) + "\" height=\"" +
-         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" " + kFont + " fill=\"" +
-         kInk + "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + LegendText() +
+         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" role=\"img\" " + kFont +
+         " fill=\"" + kInk + "\">\n<title>" + base::MarkupText(y_.title + " over " + x_.title) +
+         "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + LegendText() +
          "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) + "\" height=\"" +
          Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(kLeft) + " " +
          Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +

@@ -12,7 +12,8 @@ struct SvgAxis {
   std::string title;
   double low = 0;
   double high = 1;
-  bool log = false;  // low > 0
+  bool log = false;    // low > 0
+  bool whole = false;  // its ticks are whole numbers
 };
 
 struct SvgPoint {

@@ -1,8 +1,6 @@
 #include "experiments/analysis/report/data/profile_views.h"
 
-#include "base/files/file.h"
 #include "experiments/analysis/compare/profile_pictures.h"
-#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/heap/outline.h"
 
@@ -47,17 +45,13 @@ void AddRemains(ReportData& data) {
   const Evidence& evidence = data.evidence;
   if (!evidence.answer) return;
   for (const campaign::ResultRemains& remains : evidence.answer->remains) {
-    const std::filesystem::path file = evidence.folder / remains.file;
     if (remains.experiment != evidence.experiments[evidence.experiment]) continue;
-    if (!std::filesystem::exists(file)) continue;  // the report goes without
-    Picture& map = data.pictures.emplace_back();
-    map.png = base::ReadFile(file);
-    const imaging::GrayImage size = imaging::DecodeGrayImage(map.png, file.string());
-    map.width = size.width;
-    map.height = size.height;
-    map.name = "remains_" + file.stem().string();
-    map.title = "What remains at the recommended set" +
-                WhichPicture(evidence.reference.aehp.frame, remains.picture);
+    const std::filesystem::path file = evidence.folder / remains.file;
+    Picture map = ReadPicture(file, "remains_" + file.stem().string(),
+                              "What remains at the recommended set" +
+                                  WhichPicture(evidence.reference.aehp.frame, remains.picture),
+                              data.left_out);
+    if (!map.png.empty()) data.pictures.push_back(std::move(map));
   }
 }
 
@@ -81,9 +75,9 @@ void AddProfileViews(ReportData& data) {
   }
   data.pictures = ProfilePictures(data.evidence, shown);
   AddRemains(data);
-  data.representative = RepresentativeViews(data.evidence);
+  data.representative = RepresentativeViews(data.evidence, data.left_out);
   data.film = FilmOf(data.evidence);
-  data.overlay = MakeOverlay(data.evidence, shown, data.overlay_absent);
+  data.overlay = MakeOverlay(data.evidence, shown, data.left_out);
   if (data.overlay.photographs.empty()) return;
   data.overlay_outlines = {
       MakeOutline("experiment (AEHP)", reference.aehp),

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "experiments/analysis/report/data/profile_views.h"
+#include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
 namespace {
@@ -29,6 +31,12 @@ void AddModelViews(ReportData& data) {
   data.pairs = PosteriorPairs(evidence);
 }
 
+// Of the searched plane.
+double InsideShare(const PairMap& pair) {
+  const auto inside = std::ranges::count_if(pair.value, [](double level) { return level < 0.9; });
+  return pair.plane * static_cast<double>(inside) / static_cast<double>(pair.value.size());
+}
+
 // What differs from one experiment of a campaign to the other.
 ReportData ExperimentData(Evidence evidence) {
   ReportData data;
@@ -43,26 +51,35 @@ ReportData ExperimentData(Evidence evidence) {
 
 ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others) {
   ReportData data = ExperimentData(std::move(evidence));
-  for (Evidence& other : others) data.others.push_back(ExperimentData(std::move(other)));
+  LeftOut& left_out = data.left_out;
+  for (Evidence& other : others) {
+    const ReportData& made = data.others.emplace_back(ExperimentData(std::move(other)));
+    left_out.insert(left_out.end(), made.left_out.begin(), made.left_out.end());
+  }
   AddModelViews(data);
-  data.next_table = ReadNextTable(data.evidence);
-  data.predictions = ReadPredictions(data.evidence);
-  data.sensitivity = ReadSensitivity(data.evidence);
-  data.widths = WidthViews(data.evidence);
+  data.next_table = ReadExtra(left_out, [&] { return ReadNextTable(data.evidence, left_out); });
+  data.predictions = ReadPredictions(data.evidence, left_out);
+  data.sensitivity = ReadExtra(left_out, [&] { return ReadSensitivity(data.evidence); });
+  data.widths = WidthViews(data.evidence, data.pairs);
   data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
 }
 
-double RegionShare(const ReportData& data) {
-  double least = kUndefined;
-  for (const PairMap& pair : data.pairs) {
-    const auto inside = std::count_if(pair.value.begin(), pair.value.end(),
-                                      [](double level) { return level < 0.9; });
-    const double share =
-        pair.plane * static_cast<double>(inside) / static_cast<double>(pair.value.size());
-    if (!(share >= least)) least = share;
+std::optional<std::size_t> ClosestPair(const ReportData& data) {
+  if (data.pairs.empty()) return std::nullopt;
+  const auto at = [&](auto pair) { return static_cast<std::size_t>(pair - data.pairs.begin()); };
+  if (const auto& answer = data.evidence.answer) {
+    const auto traded = TradedPair(*answer);
+    const auto is_traded = [&](const PairMap& map) { return traded == std::pair{map.i, map.j}; };
+    const auto found = std::ranges::find_if(data.pairs, is_traded);
+    if (found != data.pairs.end()) return at(found);
   }
-  return least;
+  return at(std::ranges::min_element(data.pairs, {}, InsideShare));
+}
+
+double RegionShare(const ReportData& data) {
+  if (data.pairs.empty()) return kUndefined;
+  return std::ranges::min(data.pairs | std::views::transform(InsideShare));
 }
 
 void Follow(const ReportData& data, std::vector<RegionPoint>& history) {

@@ -55,11 +55,11 @@ struct ReportData {
   std::vector<RegionPoint> region_history;     // of a page that is watched
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
-  std::string overlay_absent;                  // why there are no photographs to show
   std::optional<FilmView> film;
   std::vector<MeasuredProfile> measures;
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;
+  LeftOut left_out;                // of all experiments
   std::vector<ReportData> others;  // of a campaign's further experiments, with what differs there
 
   const ObjectiveFinding& own() const { return findings[objective]; }
@@ -67,6 +67,10 @@ struct ReportData {
 
 // `others`: the same campaign with its further experiments shown.
 ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others = {});
+
+// The pair of parameters that says most: the one that the answer says to change together, or the
+// one whose region is smallest; an index into data.pairs, nothing where there are none.
+std::optional<std::size_t> ClosestPair(const ReportData& data);
 
 // Share of the searched plane that the joint 90 % region takes of the two parameters that it ties
 // closest; undefined without a posterior.

@@ -104,6 +104,7 @@ PageValue NextTableJson(const NextTableView& table) {
                      {"what", c.what},
                      {"remaining", NumberJson(c.remaining)},
                      {"bits", NumberJson(c.bits)},
+                     {"needs_simulations", c.needs_simulations},
                      {"goal", NumberJson(unit.per_unit * c.goal)},
                      {"width", NumbersJson(c.width)},
                      {"simulations", c.num_simulations},
@@ -203,7 +204,6 @@ PageValue HeadlineJson(const ReportData& data) {
   const Evidence& e = data.evidence;
   const campaign::Answer& a = *e.answer;
   const PageValue objective = ObjectiveOf(e);
-  const auto traded = TradedPair(a);
   const std::string& shown = e.experiments.at(e.experiment);
   const campaign::ResultStanding* standing = campaign::StandingOf(a, shown);
   const auto& noise_sd = a.experiments.at(e.experiment).noise_sd;
@@ -214,7 +214,6 @@ PageValue HeadlineJson(const ReportData& data) {
       {"fits", !campaign::IsDoubtful(a)},
       {"has_card", a.conditions.command.empty()},  // of another engine nothing is converted
       {"trade_off", TradeOffWords(e)},
-      {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
       {"unsettled", a.unsettled.has_value()},
       {"use", UseWords(a)},
       {"branches", a.posterior ? ListJson(a.posterior->branches, BranchJson) : PageValue::array()},

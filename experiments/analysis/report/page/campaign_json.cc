@@ -3,6 +3,7 @@
 #include "base/text/shell_text.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
+#include "experiments/campaign/status.h"
 
 namespace talus::analysis {
 namespace {
@@ -62,6 +63,7 @@ PageValue CampaignJson(const ReportData& data) {
   const double cpu = CoreSeconds(e);
   return {{"name", e.name},
           {"state", e.state},
+          {"ended_silently", e.state == campaign::kEndedSilently},
           {"stop_reason", e.stop_reason},
           {"folder", base::ShellWord(e.folder.string())},
           {"budget", e.max_simulations},

@@ -167,7 +167,7 @@ void AddProfiles(const ReportData& data, PageValue& page) {
   page["outlines"] = ListJson(data.outlines, OutlineJson);
   page["pictures"] = ListJson(data.pictures, PictureJson);
   page["overlay"] = OverlayJson(data);
-  page["overlay_absent"] = data.overlay_absent;
+  page["overlay_absent"] = data.overlay.absent;
   page["film"] = FilmJson(data.film);
   page["measures"] =
       ListJson(data.measures, [&](const MeasuredProfile& m) { return MeasureJson(e, m); });
@@ -177,6 +177,8 @@ void AddModel(const ReportData& data, PageValue& page) {
   page["slices"] = ListJson(data.slices, SliceJson);
   page["marginals"] = ListJson(data.marginals, MarginalJson);
   page["pairs"] = ListJson(data.pairs, PairJson);
+  const auto closest = ClosestPair(data);
+  page["closest_pair"] = closest ? PageValue(*closest) : PageValue(nullptr);
   page["model"] = ModelJson(data);
   page["model_absent"] = data.evidence.model_absent;
   page["region_share"] = NumberJson(RegionShare(data));
@@ -226,6 +228,7 @@ std::string PageJson(const ReportData& data) {
   PageValue page = ExperimentJson(data);
   page["colors"] = ColorsJson();
   page["parameters"] = ParametersJson(data.evidence);
+  page["left_out"] = data.left_out;
   AddAnswer(data, page);
   AddModel(data, page);
   page["others"] = ListJson(data.others, ExperimentJson);

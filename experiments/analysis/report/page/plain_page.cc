@@ -6,6 +6,18 @@
 
 namespace talus::analysis {
 
+std::string WithCode(const std::string& text) {
+  std::string marked;
+  bool is_code = false;
+  std::size_t from = 0;
+  for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', from)) {
+    marked += base::MarkupText(text.substr(from, at - from)) + (is_code ? "</code>" : "<code>");
+    is_code = !is_code;
+    from = at + 1;
+  }
+  return marked + base::MarkupText(text.substr(from)) + (is_code ? "</code>" : "");
+}
+
 std::string HtmlRow(const std::vector<std::string>& cells, const char* tag) {
   std::string row = "<tr>";
   for (const std::string& cell : cells) {

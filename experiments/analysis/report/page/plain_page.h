@@ -7,6 +7,9 @@
 
 namespace talus::analysis {
 
+// The text as HTML, what stands in backticks as code: it is a command.
+std::string WithCode(const std::string& text);
+
 // <tr> with these texts, which are escaped; `tag` is td or th.
 std::string HtmlRow(const std::vector<std::string>& cells, const char* tag = "td");
 

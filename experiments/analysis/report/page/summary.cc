@@ -10,6 +10,7 @@
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
+#include "experiments/analysis/report/page/plain_page.h"
 #include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
@@ -50,19 +51,6 @@ std::string Text(const std::string& tag, const std::string& text,
   return Element(tag, base::MarkupText(text), attributes);
 }
 
-// What stands in backticks is a command.
-std::string WithCode(const std::string& text) {
-  std::string marked;
-  bool is_code = false;
-  std::size_t from = 0;
-  for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', from)) {
-    marked += base::MarkupText(text.substr(from, at - from)) + (is_code ? "</code>" : "<code>");
-    is_code = !is_code;
-    from = at + 1;
-  }
-  return marked + base::MarkupText(text.substr(from)) + (is_code ? "</code>" : "");
-}
-
 std::string Image(const Picture& picture, const std::string& caption) {
   return Element("figure", "<img alt=\"" + base::MarkupText(caption) +
                                "\" src=\"data:image/png;base64," + base::Base64(picture.png) +
@@ -86,10 +74,14 @@ std::string Heaps(const ReportData& data) {
          Image(simulated, name + ", simulated, average profile");
 }
 
+// Of the first experiments that have any.
 std::string AllHeaps(const ReportData& data) {
   std::string heaps = Heaps(data);
-  for (std::size_t i = 0; i + 1 < kMostPairs && i < data.others.size(); ++i) {
-    heaps += Heaps(data.others[i]);
+  std::size_t num_pairs = heaps.empty() ? 0 : 1;
+  for (const ReportData& other : data.others) {
+    const std::string more = num_pairs < kMostPairs ? Heaps(other) : "";
+    heaps += more;
+    num_pairs += more.empty() ? 0 : 1;
   }
   return heaps.empty() ? "" : Element("div", heaps, "class=\"heaps\"");
 }
@@ -127,13 +119,11 @@ std::string ParameterTable(const Evidence& evidence) {
               "class=\"soft\"");
 }
 
-// The region over the two parameters that it ties closest.
+// The region over the two parameters that it ties closest, as the page has it.
 std::string Region(const ReportData& data) {
-  if (data.pairs.empty()) return "";
-  const auto inside = [](const PairMap& pair) {
-    return std::ranges::count_if(pair.value, [](double level) { return level < 0.9; });
-  };
-  const PairMap& pair = *std::ranges::min_element(data.pairs, {}, inside);
+  const auto closest = ClosestPair(data);
+  if (!closest) return "";
+  const PairMap& pair = data.pairs[*closest];
   const auto axis = [&](std::size_t k) {
     const ParameterInfo& p = data.evidence.parameters[k];
     return SvgAxis{.title = p.symbol + (p.unit.empty() ? "" : " (" + p.unit + ")"),
@@ -171,6 +161,12 @@ std::string Fits(const Evidence& evidence) {
                               Text("td", row.measured));
   }
   if (rows.empty()) return "";
+  if (evidence.fit.size() > kMostFits) {
+    rows += Element(
+        "tr",
+        Text("td", "and " + std::to_string(evidence.fit.size() - kMostFits) + " more on the page",
+             "colspan=\"4\""));
+  }
   return Text("h2", "How well it fits") +
          Element("table",
                  "<tr><th>Measurement</th><th></th><th>Simulated</th><th>Measured</th>"
@@ -231,7 +227,7 @@ double FontSize(const Evidence& evidence) {
   constexpr double kSmallest = 6.2;  // [pt]
   constexpr double kRoom = 25;       // lines of the usual size, beside pictures and headings
   double lines = 2.0 * static_cast<double>(evidence.parameters.size()) +
-                 2.0 * static_cast<double>(std::min(evidence.fit.size(), kMostFits));
+                 2.0 * static_cast<double>(std::min(evidence.fit.size(), kMostFits + 1));
   for (const std::string& sentence : HeadlineWords(evidence)) lines += LinesOf(sentence, 100);
   const std::vector<std::string> alarms = AlarmWords(evidence);
   for (std::size_t i = 0; i < std::min(alarms.size(), kMostAlarms); ++i) {

@@ -8,26 +8,13 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/trials/simulate/film.h"
-#include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 
-Picture PictureIn(const fs::path& folder, const std::string& file, const std::string& title) {
-  if (file.empty() || !fs::exists(folder / file)) return {};
-  const std::string png = base::ReadFile(folder / file);
-  const imaging::GrayImage size = imaging::ReadGrayImage(folder / file);
-  return {.name = "predict_" + folder.filename().string() + "_" + fs::path(file).stem().string(),
-          .title = title,
-          .caption = {},
-          .width = size.width,
-          .height = size.height,
-          .png = png};
-}
-
-PredictionView ViewOf(const fs::path& folder, const Evidence& evidence) {
+PredictionView ViewOf(const fs::path& folder, const Evidence& evidence, LeftOut& left_out) {
   const fs::path file = folder / "prediction.json";
   PredictionView view{
       .prediction = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string()),
@@ -40,8 +27,13 @@ PredictionView ViewOf(const fs::path& folder, const Evidence& evidence) {
     return draw.values.size() == evidence.parameters.size();
   });
   if (!is_of_these) p.different.clear();
-  view.mean = PictureIn(folder, p.mean_profile, p.name + ": mean silhouette");
-  view.different = PictureIn(folder, p.most_different, p.name + ": the two draws that differ most");
+  const auto picture = [&](const std::string& name, const std::string& title) {
+    const std::string stem = fs::path(name).stem().string();
+    return ReadPicture(folder / name, "predict_" + folder.filename().string() + "_" + stem,
+                       p.name + title, left_out);
+  };
+  view.mean = picture(p.mean_profile, ": mean silhouette");
+  view.different = picture(p.most_different, ": the two draws that differ most");
   return view;
 }
 
@@ -70,7 +62,7 @@ std::optional<SensitivityView> ReadSensitivity(const Evidence& evidence) {
                          .is_outdated = HaveTrialsEndedSince(evidence, table->last_trial)};
 }
 
-std::vector<PredictionView> ReadPredictions(const Evidence& evidence) {
+std::vector<PredictionView> ReadPredictions(const Evidence& evidence, LeftOut& left_out) {
   std::vector<fs::path> folders;
   const fs::path root = evidence.folder / "predict";
   if (evidence.folder.empty() || !fs::is_directory(root)) return {};
@@ -79,7 +71,12 @@ std::vector<PredictionView> ReadPredictions(const Evidence& evidence) {
   }
   std::sort(folders.begin(), folders.end());
   std::vector<PredictionView> views;
-  for (const fs::path& folder : folders) views.push_back(ViewOf(folder, evidence));
+  for (const fs::path& folder : folders) {
+    const auto view = ReadExtra(left_out, [&] {
+      return std::optional<PredictionView>(ViewOf(folder, evidence, left_out));
+    });
+    if (view) views.push_back(*view);
+  }
   return views;
 }
 

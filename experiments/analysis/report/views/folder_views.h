@@ -9,6 +9,7 @@
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/predict/prediction.h"
+#include "experiments/analysis/report/views/extras.h"
 #include "experiments/analysis/sensitivity/sensitivity_table.h"
 
 namespace talus::analysis {
@@ -37,7 +38,7 @@ struct PredictionView {
   Picture different;
 };
 
-// By the names of their folders; those by one set alone, too. Throws ConfigError on a damaged file.
-std::vector<PredictionView> ReadPredictions(const Evidence& evidence);
+// By the names of their folders; those by one set alone, too.
+std::vector<PredictionView> ReadPredictions(const Evidence& evidence, LeftOut& left_out);
 
 }  // namespace talus::analysis

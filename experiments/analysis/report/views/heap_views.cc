@@ -20,12 +20,12 @@ namespace {
 constexpr int kRenderedWidth = 520;    // [px]
 constexpr std::size_t kMostViews = 4;  // of a heap's photographs
 
-// The grains of a trial; none where the folder or the file is gone.
-std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial) {
+// The grains of a trial; none where the folder or the file is gone, or it is damaged.
+std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial, LeftOut& left_out) {
   const auto file = campaign::CampaignFolder{evidence.folder}.trial(trial) / "heap.vtp";
   std::error_code absent;
   if (evidence.folder.empty() || !std::filesystem::exists(file, absent)) return {};
-  return imaging::ReadSpheres(file);
+  return ReadExtra(left_out, [&] { return imaging::ReadSpheres(file); });
 }
 
 Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& values) {
@@ -91,13 +91,12 @@ imaging::ColorImage DrawnHeap(const Evidence& evidence, const std::vector<base::
   return imaging::RenderSpheres(on_plate, imaging::WholeHeap(on_plate, plate, kRenderedWidth));
 }
 
-void AddHeap(const Evidence& evidence, std::size_t index, RepresentativeView& view) {
-  if (view.trial == nullptr || !evidence.reference.has_image()) return;
-  const std::vector<base::Sphere> grains = GrainsOf(evidence, view.trial->id);
-  if (grains.empty()) return;
-  view.heap =
-      MakePicture("heap_" + std::to_string(index + 1),
-                  "Heap of trial " + std::to_string(view.trial->id), DrawnHeap(evidence, grains));
+// Without a PNG where there are no grains to draw.
+Picture HeapOf(const Evidence& evidence, const TrialEvidence* trial, LeftOut& left_out) {
+  if (trial == nullptr || !evidence.reference.has_image()) return {};
+  const std::vector<base::Sphere> grains = GrainsOf(evidence, trial->id, left_out);
+  if (grains.empty()) return {};
+  return MakePicture({}, "Heap of trial " + std::to_string(trial->id), DrawnHeap(evidence, grains));
 }
 
 // The spec's photographs of one run: a camera's few views say enough.
@@ -164,7 +163,7 @@ imaging::ColorImage SeenBy(imaging::Camera camera, const Evidence& evidence,
 
 }  // namespace
 
-std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
+std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence, LeftOut& left_out) {
   std::vector<RepresentativeView> views;
   if (!evidence.answer) return views;
   std::vector<double> recommended;
@@ -184,24 +183,25 @@ std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
       view.expected_sd = at.sd[0];
     }
     FindNearest(trials, point, view);
-    AddHeap(evidence, i, view);
+    view.heap = HeapOf(evidence, view.trial, left_out);
+    view.heap.name = "heap_" + std::to_string(i + 1);
     views.push_back(std::move(view));
   }
   return views;
 }
 
 PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
-                         std::string& absent) {
+                         LeftOut& left_out) {
   PhotoOverlay overlay{.photographs = {}, .simulated = {}};
   if (shown.empty() || !evidence.reference.has_image()) return overlay;
   overlay.trial = shown.front().trial;
   if (const TrialEvidence* confirming = ConfirmingTrial(evidence)) overlay.trial = confirming;
-  const std::vector<base::Sphere> grains = GrainsOf(evidence, overlay.trial->id);
+  const std::vector<base::Sphere> grains = GrainsOf(evidence, overlay.trial->id, left_out);
   const auto profile = evidence.profile(overlay.trial->id);
   if (grains.empty() || !profile) return overlay;
   const imaging::Frame& frame = evidence.reference.aehp.frame;
   if (frame.num_pictures() > 1) {
-    absent = "of a film there is no simulated heap but the last";
+    overlay.absent = "of a film there is no simulated heap but the last";
     return overlay;
   }
   const Box box = HeapBox({&evidence.reference.aehp, &*profile});
@@ -215,7 +215,7 @@ PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>
   try {
     AddPhotographs(evidence, box, overlay);
   } catch (const base::ConfigError& error) {  // moved or renamed since: the report goes without
-    absent = error.what();
+    overlay.absent = error.what();
   }
   return overlay;
 }

@@ -6,6 +6,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/views/extras.h"
 
 namespace talus::analysis {
 
@@ -20,21 +21,22 @@ struct RepresentativeView {
   Picture heap;                          // of it; no PNG where its grains are not kept
 };
 
-std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence);
+std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence, LeftOut& left_out);
 
 // Photographs of a heap, and a simulated one as the same camera would see it.
 struct PhotoOverlay {
   std::vector<Picture> photographs;  // one a view
   Picture simulated;                 // of the same frame and size
   const TrialEvidence* trial = nullptr;
-  double pixel_mm = 0;  // of all of them
-  double center_x = 0;  // of the plate, from the left [px]
-  double baseline = 0;  // … from the top
+  double pixel_mm = 0;   // of all of them
+  double center_x = 0;   // of the plate, from the left [px]
+  double baseline = 0;   // … from the top
+  std::string absent{};  // why there are no photographs to show
 };
 
 // The heap of the confirming trial, or of the best one before there is one. No photographs where
-// the spec's are no longer there, or the experiment is a map: `absent` then says why.
+// the spec's are no longer there, or the experiment is a map.
 PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
-                         std::string& absent);
+                         LeftOut& left_out);
 
 }  // namespace talus::analysis

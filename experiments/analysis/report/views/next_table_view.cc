@@ -1,12 +1,12 @@
 #include "experiments/analysis/report/views/next_table_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
 namespace {
@@ -30,7 +30,7 @@ std::vector<double> WidthsOf(const Json& by_name, const Evidence& evidence) {
   return widths;
 }
 
-CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::path& folder) {
+CandidateView CandidateOf(const Json& json, const Evidence& evidence) {
   CandidateView candidate{.kind = json.at("kind").get<std::string>(),
                           .name = json.at("name").get<std::string>(),
                           .what = json.at("what").get<std::string>(),
@@ -48,27 +48,26 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
       candidate.goal = json["goal_half_width_90"].get<double>();
     }
   }
+  candidate.needs_simulations =
+      json.value("needs_simulations", std::isnan(candidate.bits) && candidate.num_simulations > 0);
   if (!json.contains("told_apart")) return candidate;
   candidate.apart = json["told_apart"].get<std::vector<std::vector<double>>>();
   for (const Json& number : json.value("told_apart_by", Json::array())) {
     candidate.apart_by.push_back({.metric = number.at("name").get<std::string>(),
                                   .values = number.at("values").get<std::vector<double>>()});
   }
-  if (!json.contains("picture")) return candidate;
-  // Beside the table, wherever the campaign was when that was written.
-  const fs::path path = folder / fs::path(json["picture"].get<std::string>()).filename();
-  if (!fs::exists(path)) return candidate;
-  const imaging::GrayImage size = imaging::ReadGrayImage(path);
-  candidate.picture = {.name = "next_" + path.stem().string(),
-                       .title = candidate.name,
-                       .caption = {},
-                       .width = size.width,
-                       .height = size.height,
-                       .png = base::ReadFile(path)};
   return candidate;
 }
 
-NextTableView ViewOf(const Json& json, const Evidence& evidence, const fs::path& folder) {
+// Beside the table, wherever the campaign was when that was written.
+Picture PictureOf(const Json& candidate, const fs::path& folder, LeftOut& left_out) {
+  if (!candidate.contains("told_apart") || !candidate.contains("picture")) return {};
+  const fs::path path = folder / fs::path(candidate["picture"].get<std::string>()).filename();
+  return ReadPicture(path, "next_" + path.stem().string(), candidate.at("name").get<std::string>(),
+                     left_out);
+}
+
+NextTableView ViewOf(const Json& json, const Evidence& evidence) {
   NextTableView view{.width = WidthsOf(json.at("width_90"), evidence), .candidates = {}};
   const auto after = json.at("after_trial").get<std::int64_t>();
   view.is_outdated = HaveTrialsEndedSince(evidence, after);
@@ -78,21 +77,25 @@ NextTableView ViewOf(const Json& json, const Evidence& evidence, const fs::path&
                  .half_width = json["goal"].at("half_width_90").get<double>()};
   }
   for (const Json& candidate : json.at("candidates")) {
-    view.candidates.push_back(CandidateOf(candidate, evidence, folder));
+    view.candidates.push_back(CandidateOf(candidate, evidence));
   }
   return view;
 }
 
 }  // namespace
 
-std::optional<NextTableView> ReadNextTable(const Evidence& evidence) {
+std::optional<NextTableView> ReadNextTable(const Evidence& evidence, LeftOut& left_out) {
   const fs::path folder = evidence.folder / "next";
   const fs::path path = folder / "next.json";
   if (evidence.folder.empty() || !fs::exists(path)) return std::nullopt;
   try {
     const Json json = Json::parse(base::ReadFile(path));
     if (!TellsOfAll(json.at("width_90"), evidence)) return std::nullopt;
-    return ViewOf(json, evidence, folder);
+    NextTableView view = ViewOf(json, evidence);
+    for (std::size_t i = 0; i < view.candidates.size(); ++i) {
+      view.candidates[i].picture = PictureOf(json["candidates"][i], folder, left_out);
+    }
+    return view;
   } catch (const Json::exception&) {
     throw base::ConfigError(path.string() +
                             ": is not what `talus next` writes here; run it again, or remove the "

@@ -7,6 +7,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/views/extras.h"
 
 namespace talus::analysis {
 
@@ -19,10 +20,11 @@ struct CandidateView {
   };
   std::string kind;  // as in next.json: "test", "more_runs", …
   std::string name;
-  std::string what;               // in words
-  double bits = kUndefined;       // expected; undefined where its simulations have not been run
-  std::vector<double> width;      // of the joint 90 % ranges that it leaves, unit cube; or none
-  double remaining = kUndefined;  // share of what there is to narrow (NextCandidate)
+  std::string what;                // in words
+  double bits = kUndefined;        // expected; undefined where that is not known
+  bool needs_simulations = false;  // … before its simulations have been run
+  std::vector<double> width;       // of the joint 90 % ranges that it leaves, unit cube; or none
+  double remaining = kUndefined;   // share of what there is to narrow (NextCandidate)
   double goal = kUndefined;  // half-width of the goal's 90 % that it leaves, where there is a goal
   int num_simulations = 0;
   double core_time = 0;  // [s]
@@ -46,7 +48,8 @@ struct NextTableView {
   std::vector<CandidateView> candidates;
 };
 
-// Nothing where `talus next` has not been run. Throws ConfigError on a damaged file.
-std::optional<NextTableView> ReadNextTable(const Evidence& evidence);
+// Nothing where `talus next` has not been run. Throws ConfigError on a damaged file, but for the
+// pictures.
+std::optional<NextTableView> ReadNextTable(const Evidence& evidence, LeftOut& left_out);
 
 }  // namespace talus::analysis

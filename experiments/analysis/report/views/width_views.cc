@@ -1,5 +1,6 @@
 #include "experiments/analysis/report/views/width_views.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/analysis/report/views/answer_words.h"
@@ -18,10 +19,19 @@ void Set(const Evidence& evidence, std::size_t k, const optimizer::Range& range,
   view.high[k] = evidence.parameters[k].range.ToNative(range.high);
 }
 
+// A nuisance has a range of its own, whatever the others are.
+std::string AllAtOnce(const Evidence& evidence) {
+  const bool all_asked = std::ranges::none_of(
+      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
+  return all_asked ? "90 % for all parameters at once"
+                   : "90 % for all parameters asked for at once; of one not asked for, by itself";
+}
+
 WidthView Stated(const Evidence& evidence) {
   WidthView view = Empty(evidence, "Stated range",
-                         "90 % for all parameters at once; what tolerances are made of, and what "
-                         "talus next starts from");
+                         AllAtOnce(evidence) +
+                             "; what tolerances are made of, and what talus next "
+                             "starts from");
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     view.low[k] = evidence.answer->parameters[k].credible_low;
     view.high[k] = evidence.answer->parameters[k].credible_high;
@@ -29,8 +39,14 @@ WidthView Stated(const Evidence& evidence) {
   return view;
 }
 
-// How far the draws inside the region reach.
-WidthView Shadow(const Evidence& evidence) {
+void Include(double value, std::size_t k, WidthView& view) {
+  view.low[k] = std::fmin(view.low[k], value);
+  view.high[k] = std::fmax(view.high[k], value);
+}
+
+// How far the figures' cells inside the region reach. Of what no figure shows, how far the draws
+// do.
+WidthView Shadow(const Evidence& evidence, const std::vector<PairMap>& pairs) {
   WidthView view = Empty(evidence, "Shadow of the region",
                          "from end to end of the joint 90 % region, whatever the others are; what "
                          "the figures show");
@@ -40,8 +56,18 @@ WidthView Shadow(const Evidence& evidence) {
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
     if (levels[i] <= 0.9) inside.push_back(i);
   }
-  if (inside.empty()) return view;
+  for (const PairMap& pair : pairs) {
+    const std::size_t columns = pair.x_edges.size() - 1;
+    for (std::size_t c = 0; c < pair.value.size(); ++c) {
+      if (!(pair.value[c] < 0.9)) continue;
+      for (const std::size_t edge : {std::size_t{0}, std::size_t{1}}) {
+        Include(pair.x_edges[c % columns + edge], pair.i, view);
+        Include(pair.y_edges[c / columns + edge], pair.j, view);
+      }
+    }
+  }
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    if (inside.empty() || std::isfinite(view.low[k])) continue;
     const Eigen::VectorXd column = draws(inside, static_cast<Eigen::Index>(k));
     Set(evidence, k, {.low = column.minCoeff(), .high = column.maxCoeff()}, view);
   }
@@ -68,9 +94,9 @@ WidthView AcrossTheCurve(const Evidence& evidence, std::size_t i, std::size_t j)
   return view;
 }
 
-WidthView Alone(const campaign::ResultAlone& alone) {
+WidthView Alone(const Evidence& evidence, const campaign::ResultAlone& alone) {
   return {.title = alone.name + " alone",
-          .means = "90 % for all parameters at once, by this experiment without the others",
+          .means = AllAtOnce(evidence) + "; by this experiment without the others",
           .low = alone.low,
           .high = alone.high};
 }
@@ -86,15 +112,15 @@ std::vector<Eigen::Index> DrawsNear(const Eigen::MatrixXd& draws, Eigen::Index c
   return near;
 }
 
-std::vector<WidthView> WidthViews(const Evidence& evidence) {
+std::vector<WidthView> WidthViews(const Evidence& evidence, const std::vector<PairMap>& pairs) {
   if (!evidence.answer || !evidence.model || evidence.parameters.size() < 2) return {};
-  std::vector<WidthView> views{Stated(evidence), Shadow(evidence)};
+  std::vector<WidthView> views{Stated(evidence), Shadow(evidence, pairs)};
   if (const auto pair = TradedPair(*evidence.answer)) {
     views.push_back(AcrossTheCurve(evidence, pair->first, pair->second));
   }
   if (!evidence.answer->posterior) return views;
   for (const campaign::ResultAlone& alone : evidence.answer->posterior->alone) {
-    views.push_back(Alone(alone));
+    views.push_back(Alone(evidence, alone));
   }
   return views;
 }

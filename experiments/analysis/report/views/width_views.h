@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/analysis/compare/evidence.h"
+#include "experiments/analysis/report/views/model_views.h"
 
 namespace talus::analysis {
 
@@ -18,8 +19,9 @@ struct WidthView {
   std::vector<double> high;  // …
 };
 
-// The stated ranges first; none of one parameter, or where no model answers.
-std::vector<WidthView> WidthViews(const Evidence& evidence);
+// The stated ranges first; none of one parameter, or where no model answers. `pairs`: the figures
+// of the region, whose shadow reaches as far as they show.
+std::vector<WidthView> WidthViews(const Evidence& evidence, const std::vector<PairMap>& pairs);
 
 // Draws (rows) whose parameter `column` is the value but for a measurement's error; unit cube.
 std::vector<Eigen::Index> DrawsNear(const Eigen::MatrixXd& draws, Eigen::Index column,

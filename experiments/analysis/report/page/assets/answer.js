@@ -38,16 +38,6 @@ function widths(h) {
         ...D.parameters.map((_, k) => range(w, k))])));
 }
 
-// The pair of parameters that says most: the one that the answer says to change together, or the
-// one whose region is smallest.
-function closestPair() {
-  const [i, j] = D.headline ? D.headline.traded : [];
-  const traded = D.pairs.find((pair) => pair.i === i && pair.j === j);
-  if (traded) return traded;
-  const inside = (pair) => pair.value.filter((level) => level < .9).length;
-  return [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
-}
-
 // The kind of answer, for who meets it for the first time.
 const numAsked = D.parameters.filter((p) => !p.nuisance).length;
 const kindText = {
@@ -73,6 +63,13 @@ function alarms() {
   return D.warnings.length ? element("div", {class: "notice", role: "note", id: "alarms"},
     element("strong", {}, "Before you use it"),
     element("ul", {}, D.warnings.map((w) => element("li", {}, withCode(w))))) : null;
+}
+
+// Files beside the journal that are damaged.
+function leftOut() {
+  return D.left_out.length ? element("div", {class: "notice", role: "note", id: "left-out"},
+    element("strong", {}, "Left out of this report"),
+    element("ul", {}, D.left_out.map((line) => element("li", {}, withCode(line))))) : null;
 }
 
 const meetsText = {yes: "✓ fits", no: "✗ misses", unknown: "? open"};
@@ -161,7 +158,9 @@ function toldApart(c) {
 // What `talus next` has found: every candidate, and what the best ones would show.
 function nextTable() {
   if (!D.next) return [];
-  const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : "no simulation";
+  const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : c.bits === null ? "–" : "no simulation";
+  // What is not known: "?" where simulations would tell, "–" where none will; the candidate's own words say why.
+  const known = (c, x, text) => x !== null ? text(x) : c.needs_simulations ? "?" : "–";
   const goal = D.next.goal;
   const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
   return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
@@ -173,11 +172,11 @@ function nextTable() {
         ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
         {title: "Costs", text: true}],
       D.next.candidates.map((c) => [c.name + ": " + c.what,
-        ...(goal ? [c.goal === null ? "?" : formatUnit(c.goal, goal.unit, 2)] : []),
-        c.remaining === null ? "?" : percent(c.remaining), c.bits === null ? "?" : format(c.bits, 2),
-        ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
+        ...(goal ? [known(c, c.goal, (x) => formatUnit(x, goal.unit, 2))] : []),
+        known(c, c.remaining, percent), known(c, c.bits, (x) => format(x, 2)),
+        ...D.parameters.map((p, k) => known(c, c.bits, () => widthText(p, c.width[k]))), cost(c)])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
-      "possible." + (D.next.candidates.some((c) => c.bits === null)
+      "possible." + (D.next.candidates.some((c) => c.needs_simulations)
         ? " ?: talus next " + D.campaign.folder + " --simulate runs the simulations that tell." : ""))),
     telling.length ? element("div", {class: "stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
       : null];
@@ -223,8 +222,7 @@ function representativeHeaps(h) {
 function answerSection() {
   const h = D.headline;
   if (!h) return [notYet(), alarms(), ...soFar()];
-  const closest = closestPair();
-  const region = closest ? card(pairChart(closest, 0, "region", "")) : null;
+  const region = D.pairs.length ? card(pairChart(D.pairs[D.closest_pair], 0, "region", "")) : null;
   const values = element("div", {class: "card"},
     element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))));
   const next = nextSteps(h), shown = views.map((view) => within(view, () => representativeHeaps(view.headline))).filter(Boolean);

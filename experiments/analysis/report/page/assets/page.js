@@ -45,7 +45,7 @@ function build() {
   const tried = any(() => D.trials.id.length > 0), has_image = any(() => D.campaign.has_image);
   document.getElementById("name").textContent = D.campaign.name;
   document.getElementById("standing").append(...standing());
-  section("answer", "Answer", "", answerSection());
+  section("answer", "Answer", "", [...answerSection(), leftOut()]);
   section("predictions", "Predictions", "What the calibrated sets give in other tests or processes, simulated by talus " +
     "predict: the range of a single run, and where its uncertainty comes from.", predictionSection());
   section("convergence-section", "Convergence", "", known ? eachExperiment(() => [card(convergenceChart())]) : []);

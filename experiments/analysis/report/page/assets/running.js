@@ -47,7 +47,7 @@ function soFar() {
       xAxis: valueAxis("trials", {nameGap: 28, min: history[0][0]}), yAxis: valueAxis("share", {min: 0}),
       series: [{type: "line", data: history, lineStyle: {color: palette[0], width: 2}, itemStyle: {color: palette[0]}}],
     }), "small").figure);
-  const region = D.model && D.pairs.length ? card(pairChart(closestPair(), 0, "region", "")) : null;
+  const region = D.model && D.pairs.length ? card(pairChart(D.pairs[D.closest_pair], 0, "region", "")) : null;
   return [facts.length ? element("div", {class: "card", id: "so-far"}, element("dl", {class: "facts"}, facts)) : null,
     region || shrinking ? element("div", {class: "grid two stacked"}, region, shrinking) : null];
 }

@@ -9,7 +9,7 @@ function standing() {
   if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
-    c.state === "ended without a word" ? [element("code", {}, "talus resume " + c.folder), " goes on. "] : null,
+    c.ended_silently ? [element("code", {}, "talus resume " + c.folder), " goes on. "] : null,
     parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];
 }
 
@@ -55,7 +55,8 @@ function comparisonSection() {
       ...b.values.map((x) => format(x)),
       o.noise_sd === null ? "–" : o.trials.num_tied + " of " + o.trials.num_sets];
   });
-  const parts = [
+  const parts = !answered.length ? [element("p", {class: "lead"}, doneTrials().length ? "No objective has a best set."
+    : "No trial has succeeded: no objective has a best set.")] : [
     ...knowledgeTable(),
     element("p", {class: "lead"}, "The best set by each objective, and how many sets tie with it: those whose objective " +
       "is within the scatter of one simulation. A dash: no set was simulated twice, so that the scatter is not known."),
@@ -65,7 +66,7 @@ function comparisonSection() {
     parts.push(element("div", {class: "notice"}, element("ul", {}, silent.map((o) =>
       element("li", {}, o.title + ": " + o.absent)))));
   }
-  parts.push(element("div", {class: "card"}, answered.map((o, k) => element("details", {open: k === 0},
+  if (answered.length) parts.push(element("div", {class: "card"}, answered.map((o, k) => element("details", {open: k === 0},
     element("summary", {}, "The ten best by " + o.title),
     table("The ten best by " + o.title, [{title: "Rank"}, {title: o.title, unit: o.unit},
            ...(o.is_distance ? [{title: "Off by", unit: o.unit}] : []),

@@ -45,11 +45,14 @@ function spaceChart() {
         const i = rowOf.get(b.trials[0]);
         return [...at(b.values), ...extra(i), b.objective, i];
       })}));
-    if (D.headline) {
+    // Of one parameter a line: the axis across it is of whichever objective is shown.
+    if (D.headline && n === 1) {
+      series.push({type: kind, name: "recommended", symbol: "path://M-1,-9 L1,-9 L1,9 L-1,9 Z", data: [],
+        itemStyle: {color: starColor}, markLine: verticalMark(D.headline.values[0].value)});
+    } else if (D.headline) {
       series.push({type: kind, name: "recommended", symbol: star, symbolSize: 26, z: 9,
         itemStyle: {color: starColor, borderColor: paper, borderWidth: 1, opacity: 1},
-        data: [[...at(D.headline.values.map((v) => v.value)),
-                ...(n === 1 ? [D.headline.predicted] : []), 0, -1]]});
+        data: [[...at(D.headline.values.map((v) => v.value)), 0, -1]]});
     }
     const selected = Object.fromEntries(
         answered.map((objective) => ["ten best by " + objective.title, objective === o]));
@@ -92,7 +95,7 @@ function spaceChart() {
       : "Trials in the parameter space", three ? "Drag to turn. Rings mark the ten best sets of an " +
       "objective: choose which in the legend. The star is the recommended set."
       : n >= 3 ? "This browser has no WebGL, so the space is shown in two dimensions."
-      : "Rings mark the ten best sets of an objective; the star is the recommended set.",
+      : "Rings mark the ten best sets of an objective; the " + (n === 1 ? "line" : "star") + " is the recommended set.",
       option, "tall");
   const chooser = element("select", {id: idOf("space-objective"),
       onchange: (e) => { colorBy = Number(e.target.value); made.redraw(); }},

@@ -41,9 +41,8 @@ function trialTable() {
   const body = element("tbody"), count = element("span", {id: idOf("trial-count"), role: "status"});
   const heads = columns.map((c, k) => element("th",
       {class: [c.text ? "text" : "", c.more ? "more" : ""].join(" ").trim() || undefined,
-       scope: "col", tabindex: 0, "data-key": c.key,
-       onclick: () => sortBy(k), onkeydown: (e) => { if (e.key === "Enter") sortBy(k); }},
-      c.title, ...(c.unit ? [element("br"), element("small", {}, c.unit)] : [])));
+       scope: "col", "data-key": c.key, onclick: () => sortBy(k)},
+      element("button", {type: "button"}, c.title, ...(c.unit ? [element("br"), element("small", {}, c.unit)] : []))));
   const back = element("button", {onclick: () => { --page; show(); }}, "Previous");
   const next = element("button", {onclick: () => { ++page; show(); }}, "Next");
   const filter = element("input", {type: "search", id: idOf("trial-filter"), size: 34,
