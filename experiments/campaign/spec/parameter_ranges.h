@@ -95,11 +95,11 @@ struct ParameterRanges {
     visit("plate_sliding_friction", self.plate_sliding_friction, {.doc = "mu_t of the plate"});
     visit("plate_rolling_friction", self.plate_rolling_friction, {.doc = "mu_r of the plate"});
     visit("plate_surface_energy", self.plate_surface_energy,
-          {.doc = "gamma of the plate, not coarse-grained"});
+          {.doc = "gamma of the plate, of true grains"});
     visit("tube_sliding_friction", self.tube_sliding_friction, {.doc = "mu_t of the tube"});
     visit("tube_rolling_friction", self.tube_rolling_friction, {.doc = "mu_r of the tube"});
     visit("tube_surface_energy", self.tube_surface_energy,
-          {.doc = "gamma of the tube, not coarse-grained"});
+          {.doc = "gamma of the tube, of true grains"});
     visit("plate_pair_sliding_friction", self.plate_pair_sliding_friction,
           {.doc = "mu_t between powder and plate"});
     visit("plate_pair_rolling_friction", self.plate_pair_rolling_friction,
