@@ -92,6 +92,7 @@ TEST(ExperimentModel, OneFineEvaluationIsNoGroundForATension) {
   const double squared = std::pow(model.Misfit(at), 2);
   ASSERT_GT(squared, 0);
   EXPECT_LE(model.SquaredMisfit(at.transpose())[0], 4 * squared * (1 + 1e-9));
+  EXPECT_GE(model.SquaredMisfit(at.transpose())[0], squared / 4);
 }
 
 }  // namespace experiment_model_test

@@ -92,7 +92,8 @@ TEST_F(ShiftedOutputs, ResponseIsTheInverseSlope) {
 TEST_F(ShiftedOutputs, OutputsOfASimulationAreTheCompressedNumbers) {
   const ExperimentModel& model = strategy_.Model().models().front();
   EXPECT_DOUBLE_EQ(model.OutputsOf({}, {13.0})[0], Compress(target_, 13.0));
-  EXPECT_NEAR(std::sqrt(model.NoiseAt(1)[0]) / More(0.05), 1, 0.5);
+  // Some twenty values tell a standard deviation to 15 %.
+  EXPECT_NEAR(std::sqrt(model.NoiseAt(1)[0]) / More(0.05), 1, 0.3);
 }
 
 }  // namespace shifted_outputs_test

@@ -82,6 +82,7 @@ def main():
             kills += was_killed
             came_before += was_before
             further += killed_again
+        assert further > 0 and 0 < came_before, (kills, came_before, further)
         print(f"{kills} kills of add-experiment, {came_before} before the test was recorded, and {further} of resume after "
               "it; no trial lost or changed")
 

@@ -114,6 +114,12 @@ def content(*names):
     return lambda folder: [(folder / name).read_bytes() for name in names]
 
 
+def every_file(place):
+    """Which files there are, and which of them are empty."""
+    return lambda folder: sorted((str(path.relative_to(folder)), path.stat().st_size == 0)
+                                 for path in (folder / place).rglob("*") if path.is_file())
+
+
 def without(key, name):
     def answer(folder):
         parsed = json.loads((folder / name).read_text())
@@ -148,11 +154,11 @@ VERBS = {  # name: what is done before, the verb, what goes on when there is roo
                   "10mm", "--lift-velocity", "1cm/s", "--mass", "1g", "--density", "4g/cm^3",
                   "--grain-diameter", "0.1mm"], None, content("new.json")),
     "report": (["calibrate", "spec.json", "--out", "out", "--quiet"],
-               ["report", "out", "--out", "page"], None, lambda f: (f / "page/report.html").exists()),
+               ["report", "out", "--out", "page"], None, every_file("page")),
     "export": (["calibrate", "spec.json", "--out", "out", "--quiet"],
                ["export", "out", "--out", "table"], None, content("table/trials.csv")),
     "compare": (["calibrate", "spec.json", "--out", "out", "--quiet"],
-                ["compare", "out", "--out", "table"], None, content("table/objectives.csv")),
+                ["compare", "out", "--out", "table"], None, every_file("table")),
 }
 
 

@@ -45,6 +45,34 @@ TEST(PairConstants, EqualSurfacesBehaveAsTheirMaterial) {
   EXPECT_DOUBLE_EQ(pair.shear_stiffness / 8, m.youngs_modulus / (4 * 1.7 * 1.3));  // P4
 }
 
+// Two materials that differ in everything, so that no mean can stand for another (P3 to P6).
+TEST(PairConstants, UnequalMaterialsMixByTheirOwnMeans) {
+  Material a = testing::Glass(), b = a;
+  a.youngs_modulus = 1e7, b.youngs_modulus = 3e7;
+  a.poisson_ratio = 0.3, b.poisson_ratio = 0.2;
+  a.restitution = 0.9, b.restitution = 0.5;
+  a.sliding_friction = 0.2, b.sliding_friction = 0.6;
+  a.rolling_friction = 0.1, b.rolling_friction = 0.3;
+  a.surface_energy = 2e-4, b.surface_energy = 8e-4;
+  const ContactModels models{.adhesion = Adhesion::kDmt};
+  const PairConstants pair = MakePairConstants(a, b, models);
+  EXPECT_DOUBLE_EQ(1 / pair.y_star, (1 - 0.09) / 1e7 + (1 - 0.04) / 3e7);
+  EXPECT_DOUBLE_EQ(8 / pair.shear_stiffness, 2 * (2 - 0.3) * 1.3 / 1e7 + 2 * (2 - 0.2) * 1.2 / 3e7);
+  EXPECT_DOUBLE_EQ(pair.sliding_friction, 2 * 0.2 * 0.6 / 0.8);
+  EXPECT_DOUBLE_EQ(pair.rolling_friction, 2 * 0.1 * 0.3 / 0.4);
+  EXPECT_DOUBLE_EQ(pair.surface_energy, 2 * std::sqrt(2e-4 * 8e-4));
+  // Damping goes by β = −ln e / √(ln² e + π²), at e = 2 · 0.9 · 0.5 / 1.4 (N2, N4).
+  const double log_e = std::log(2 * 0.9 * 0.5 / 1.4);
+  const double beta = -log_e / std::hypot(log_e, std::numbers::pi);
+  EXPECT_NEAR(pair.tangential_damping / std::sqrt(pair.shear_stiffness),
+              2 * std::sqrt(5.0 / 6.0) * beta, 1e-12);
+  const PairConstants reversed = MakePairConstants(b, a, models);
+  EXPECT_DOUBLE_EQ(reversed.y_star, pair.y_star);
+  EXPECT_DOUBLE_EQ(reversed.shear_stiffness, pair.shear_stiffness);
+  EXPECT_DOUBLE_EQ(reversed.normal_damping, pair.normal_damping);
+  EXPECT_DOUBLE_EQ(reversed.pull_off, pair.pull_off);
+}
+
 TEST(PairConstants, OneFrictionlessOrInertSurfaceIsEnough) {
   Material a = testing::Glass(), b = a;
   a.surface_energy = b.surface_energy = 1e-3;

@@ -153,7 +153,7 @@ TEST_F(DesignTest, EveryUsualTestCanBeSimulatedWhereThePlanStatesATube) {
         "plate_diameter": "12 mm", "lift_velocity": "2 cm/s"})"));
   const campaign::JointView view = ViewOf(design, scratch_.path());
   for (const TestCandidate& test : design.candidates) {
-    EXPECT_THAT(WhyNot(view, test), ::testing::Not(HasSubstr("device"))) << test.name;
+    EXPECT_EQ(WhyNot(view, test), "") << test.name;
   }
   EXPECT_DOUBLE_EQ(design.candidates[1].device->plate_diameter, 27e-3);
 }
@@ -175,7 +175,7 @@ TEST_F(DesignTest, ShippedSchemaIsTheParsers) {
   const fs::path path = TALUS_SOURCE_DIR "/docs/design.schema.json";
   const std::string schema = base::FileSchema<DesignSpec>("talus design").dump(2) + "\n";
   if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
-  EXPECT_EQ(base::ReadFile(path), schema);
+  EXPECT_TRUE(base::ReadFile(path) == schema) << path << ": TALUS_UPDATE_SCHEMAS=1 makes it anew";
 }
 
 }  // namespace design_test

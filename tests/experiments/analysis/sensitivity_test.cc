@@ -138,6 +138,7 @@ TEST_F(SensitivityTest, UsualMovesAreJudgedAndOnlyRestitutionMatters) {
   const JointView view = Run();
   const SensitivityTable table = Find(view, {});
   EXPECT_EQ(table.moves.front().name, "restitution");
+  EXPECT_TRUE(table.moves.front().Exceeds());
   for (const char* name :
        {"rolling_damping", "youngs_modulus", "plate_pair_sliding_friction", "sizes", "mass",
         "tube_pair_sliding_friction", "lift_velocity", "filling", "full_mobilisation_damping"}) {

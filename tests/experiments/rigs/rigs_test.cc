@@ -269,8 +269,9 @@ TEST_P(EveryRig, GoesOnFromACheckpointWithTheSameBits) {
   EXPECT_EQ(second->simulation().step(), whole->simulation().step());
   EXPECT_EQ(WithoutTiming(second->ResultText(second->Grains(), {})),
             WithoutTiming(whole->ResultText(whole->Grains(), {})));
-  EXPECT_GT(EstimateCase(c).simulated_time, 0.1 * whole->simulation().time());
-  EXPECT_LT(EstimateCase(c).simulated_time, 10 * whole->simulation().time());
+  // How long these few grains take to come to rest nobody knows within a half.
+  EXPECT_GT(EstimateCase(c).simulated_time, 0.5 * whole->simulation().time());
+  EXPECT_LT(EstimateCase(c).simulated_time, 2 * whole->simulation().time());
 }
 INSTANTIATE_TEST_SUITE_P(Rigs, EveryRig,
                          ::testing::Values(RigKind::kLiftedTube, RigKind::kTappedDensity,
