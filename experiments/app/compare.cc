@@ -132,8 +132,9 @@ void AddCompareCommand(CLI::App& app) {
                       "a factor of a logarithmic one; default: a tenth of its searched range");
   CLI::Option* objective =
       command
-          ->add_option("--objective", arguments->objective,
-                       "first search on by this objective, from all the trials there are")
+          ->add_option(
+              "--objective", arguments->objective,
+              "first run further simulations, and answer by this objective from all trials")
           ->check(CLI::IsMember(base::NamesOf<journal::Objective>()));
   command
       ->add_option("--add-simulations", arguments->add_simulations,
