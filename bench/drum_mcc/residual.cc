@@ -1,7 +1,8 @@
-// drum_residual PHOTO TRIAL [OVERLAY.png]: how far a simulated drum is from its photographs: the area
-// in which the two differ, both made binary (powder where any picture of the series has it), closed
-// over 7 px, inside 0.775 of the drum's radius (README.md). The photograph's drum fills the picture.
-// The overlay shows powder of both grey, of the photograph alone blue, of the simulation alone red.
+// drum_residual PHOTO TRIAL [OVERLAY.png]: how far a simulated drum is from its photographs: the
+// area in which the two differ, both made binary (powder where any picture of the series has it),
+// closed over 7 px, inside 0.775 of the drum's radius (README.md). The photograph's drum fills the
+// picture. The overlay shows powder of both grey, of the photograph alone blue, of the simulation
+// alone red.
 #include <cmath>
 #include <cstdio>
 #include <exception>
