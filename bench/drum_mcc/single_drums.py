@@ -68,7 +68,7 @@ def main():
         for rpm, start in zip((15, 45), SETS[name][-1]):
             place = out / f"{name}_{rpm}rpm"
             place.with_suffix(".json").write_text(json.dumps(case(SETS[name], rpm, start), indent=1))
-            subprocess.run([talus, "simulate", place.with_suffix(".json"), "--out", place], check=True, stderr=subprocess.DEVNULL)
+            subprocess.run([talus, "simulate", place.with_suffix(".json"), "--out", place], check=True, stdout=subprocess.DEVNULL)
             more.append(area(place / "profile.png", 1, 0) - area(photos / f"gd_{rpm}rpm.png", LIGHT, BED))
         print(f"{name}: {more[0]:+.0f} mm^2 at 15 rpm, {more[1]:+.0f} at 45, swelling {more[1] - more[0]:.0f}", flush=True)
 

@@ -112,7 +112,6 @@ def main():
             state = list(GOES_ON)[i % len(GOES_ON)]
             noticed[state] += check(talus, folder, state, good, dice)
     said = sum(noticed.values())
-    assert said > 0, noticed
     print(f"{arguments.flips} bits turned over, {said} said, {arguments.flips - said} without effect; said by state: {noticed}")
 
 
