@@ -127,6 +127,11 @@ struct Evidence {
   std::string spec_json;                      // as it was understood
   std::function<std::optional<imaging::Profile>(int)> profile;  // ANHP of a trial by its id
   std::function<bool(const Eigen::VectorXd&)> feasible;         // of the unit cube; none: all of it
+
+  // No parameter is a nuisance.
+  bool all_asked_for() const {
+    return std::ranges::none_of(parameters, [](const auto& p) { return p.range.is_nuisance; });
+  }
 };
 
 // Whether a trial of any experiment has ended since that with this id: what was made of those up to

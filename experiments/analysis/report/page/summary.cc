@@ -109,11 +109,9 @@ std::string ParameterTable(const Evidence& evidence) {
                                  (p.prior ? " (prior " + p.prior->text + ")" : "")) +
                   Text("td", ShownOrDash(p.searched_low) + " to " + ShownOrDash(p.searched_high)));
   }
-  const bool all_asked = std::ranges::none_of(
-      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
   return Element("table", rows) +
          Text("p",
-              all_asked
+              evidence.all_asked_for()
                   ? "* for all parameters together"
                   : "* for all parameters asked for together; of one not asked for, by itself",
               "class=\"soft\"");

@@ -154,9 +154,7 @@ std::vector<Marginal> Marginals(const Evidence& evidence) {
 }
 
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
-  const bool all_asked = std::ranges::none_of(
-      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
-  if (evidence.parameters.size() == 2 && all_asked) return {RegionMap(evidence)};
+  if (evidence.parameters.size() == 2 && evidence.all_asked_for()) return {RegionMap(evidence)};
   const Levelled shadow = ShadowPoints(*evidence.model);
   return EachPair(evidence, shadow.points, kRegionCells, [&](const Eigen::MatrixXd& two) {
     return ProjectedLevels(two, shadow.levels, kRegionCells);

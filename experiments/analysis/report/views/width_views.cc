@@ -21,10 +21,9 @@ void Set(const Evidence& evidence, std::size_t k, const optimizer::Range& range,
 
 // A nuisance has a range of its own, whatever the others are.
 std::string AllAtOnce(const Evidence& evidence) {
-  const bool all_asked = std::ranges::none_of(
-      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
-  return all_asked ? "90 % for all parameters at once"
-                   : "90 % for all parameters asked for at once; of one not asked for, by itself";
+  return evidence.all_asked_for()
+             ? "90 % for all parameters at once"
+             : "90 % for all parameters asked for at once; of one not asked for, by itself";
 }
 
 WidthView Stated(const Evidence& evidence) {
@@ -50,12 +49,6 @@ WidthView Shadow(const Evidence& evidence, const std::vector<PairMap>& pairs) {
   WidthView view = Empty(evidence, "Shadow of the region",
                          "from end to end of the joint 90 % region, whatever the others are; what "
                          "the figures show");
-  const Eigen::MatrixXd& draws = evidence.model->draws;
-  const Eigen::VectorXd levels = evidence.model->credible_levels(draws);
-  std::vector<Eigen::Index> inside;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if (levels[i] <= 0.9) inside.push_back(i);
-  }
   for (const PairMap& pair : pairs) {
     const std::size_t columns = pair.x_edges.size() - 1;
     for (std::size_t c = 0; c < pair.value.size(); ++c) {
@@ -66,8 +59,16 @@ WidthView Shadow(const Evidence& evidence, const std::vector<PairMap>& pairs) {
       }
     }
   }
+  if (std::ranges::all_of(view.low, [](double low) { return std::isfinite(low); })) return view;
+  const Eigen::MatrixXd& draws = evidence.model->draws;
+  const Eigen::VectorXd levels = evidence.model->credible_levels(draws);
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    if (levels[i] <= 0.9) inside.push_back(i);
+  }
+  if (inside.empty()) return view;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
-    if (inside.empty() || std::isfinite(view.low[k])) continue;
+    if (std::isfinite(view.low[k])) continue;
     const Eigen::VectorXd column = draws(inside, static_cast<Eigen::Index>(k));
     Set(evidence, k, {.low = column.minCoeff(), .high = column.maxCoeff()}, view);
   }
