@@ -108,9 +108,10 @@ target_compile_definitions(talus_test_options INTERFACE TALUS_SOURCE_DIR="${PROJ
 target_compile_options(talus_test_options INTERFACE $<$<NOT:$<BOOL:${TALUS_SANITIZE}>>:-Og;-g0>
   -Wno-array-bounds -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 
-# The suites of a test's file as a filter of GoogleTest, parameterised ones included. A file without is an error:
-# a filter that fits nothing would pass.
-function(talus_suites_of file filter)
+# The suites of a test's file as a filter of GoogleTest, parameterised ones included. A file without is an error, since
+# a filter that fits nothing would pass. So is a suite that another file of the same program has: each of the two tests
+# would run both files' cases, and at the same time the same case would write one temporary folder twice.
+function(talus_suites_of file target filter)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(STRINGS ${file} cases REGEX "^TEST(_F|_P)?[(]")
   list(TRANSFORM cases REPLACE "^TEST[_FP]*[(]([A-Za-z0-9]+).*" "\\1")
@@ -118,6 +119,13 @@ function(talus_suites_of file filter)
   if(NOT cases)
     message(FATAL_ERROR "${file} has no TEST, TEST_F or TEST_P at the start of a line")
   endif()
+  get_target_property(others ${target} TALUS_SUITES)
+  foreach(suite IN LISTS cases)
+    if(suite IN_LIST others)
+      message(SEND_ERROR "${file}: another file of ${target} has a suite ${suite}, too; rename one")
+    endif()
+  endforeach()
+  set_property(TARGET ${target} APPEND PROPERTY TALUS_SUITES ${cases})
   list(TRANSFORM cases REPLACE "(.+)" "\\1.*:*/\\1.*")
   list(JOIN cases ":" joined)
   set(${filter} ${joined} PARENT_SCOPE)
@@ -158,9 +166,12 @@ function(talus_add_test path)
   if(TALUS_SANITIZE OR TALUS_THREAD_SANITIZER)
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
-  talus_suites_of(${source} filter)
+  talus_suites_of(${source} ${target} filter)
+  set(scratch ${PROJECT_BINARY_DIR}/scratch/${path})
+  file(MAKE_DIRECTORY ${scratch})
   add_test(NAME ${path} COMMAND ${target} --gtest_filter=${filter})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
-    # As the program sets it (experiments/app/main.cc).
-    ENVIRONMENT "OMP_WAIT_POLICY=passive;MALLOC_MMAP_THRESHOLD_=33554432;MALLOC_TRIM_THRESHOLD_=268435456")
+    # A temporary folder of its own; memory as the program sets it (experiments/app/main.cc).
+    ENVIRONMENT "TEST_TMPDIR=${scratch};OMP_WAIT_POLICY=passive;MALLOC_MMAP_THRESHOLD_=33554432;\
+MALLOC_TRIM_THRESHOLD_=268435456")
 endfunction()

@@ -184,7 +184,7 @@ TEST(Prior, OfEarlierDrawsLeavesOutWhatLiesOutsideTheRanges) {
   EXPECT_EQ(inside(0, 1), 0.5);
 }
 
-TEST(PosteriorDesign, GrowsLessWithNuisances) {
+TEST(DesignWithNuisances, GrowsLess) {
   Domain domain{.num_parameters = 3};
   EXPECT_EQ(PosteriorDesignSize(domain), 16);
   domain.num_parameters = 6;
@@ -195,7 +195,7 @@ TEST(PosteriorDesign, GrowsLessWithNuisances) {
   EXPECT_EQ(PosteriorDesignSize(domain), 17);
 }
 
-TEST(PosteriorDesign, LooksForNuisancesWhereTheirPriorIs) {
+TEST(DesignWithNuisances, LooksForThemWhereTheirPriorIs) {
   Domain domain{.num_parameters = 2, .nuisances = {1}};
   domain.prior.Add(1, {}, {.mean = 0.7, .sd = 0.05});
   double low = 1;

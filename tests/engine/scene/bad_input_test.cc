@@ -157,7 +157,7 @@ Particle Above(std::int64_t id, double height) {
 }
 
 // Unharmed, the simulation goes on with the bits of one that was never asked.
-TEST(Add, RefusesWhatStandsInSomethingAndChangesNothing) {
+TEST(BadAdd, RefusesWhatStandsInSomethingAndChangesNothing) {
   Simulation simulation(Sound()), other(Sound());
   simulation.Advance(10);
   other.Advance(10);
@@ -181,7 +181,7 @@ TEST(Add, RefusesWhatStandsInSomethingAndChangesNothing) {
 }
 
 // A large sphere meets small ones beyond the cells next to its own.
-TEST(Add, SeesASmallSphereInALargeOneAndTheOtherWayRound) {
+TEST(BadAdd, SeesASmallSphereInALargeOneAndTheOtherWayRound) {
   Scene scene = Sound();
   scene.time_step = 1e-7;
   const Particle large{.id = 100, .radius = 0.05, .position = {0.5, 0, 0.1}};

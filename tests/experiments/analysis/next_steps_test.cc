@@ -144,7 +144,7 @@ TEST(NextSteps, ANuisanceThatLeavesTheOthersAsTheyAreIsNotToBeMeasured) {
 }
 
 // A sheet with the former answer stood beside a page that had none.
-TEST(WriteReport, TheSheetOfASearchThatGoesOnIsGone) {
+TEST(Sheet, OfASearchThatGoesOnIsGone) {
   const ScratchFolder scratch;
   const std::filesystem::path sheet = scratch.path() / "report/summary.html";
   ReportData data = MakeReportData(test::MakeSyntheticCampaign());

@@ -232,7 +232,7 @@ TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
 }
 
 // The measurements say nothing of a parameter whose range is its prior's, and its unit is said.
-TEST(Headline, WhatWasKnownBeforehandIsNotCalledDetermined) {
+TEST(HeadlineOfAPrior, WhatWasKnownBeforehandIsNotCalledDetermined) {
   Answer answer = ConfirmedAt(4);
   answer.parameters = {{.name = "sliding_friction",
                         .value = 0.451,

@@ -11,7 +11,9 @@ namespace slurm_answers_test {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST_F(SlurmRunnerTest, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
+class SlurmAnswers : public SlurmRunnerTest {};
+
+TEST_F(SlurmAnswers, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
   Put("hold", "");
   options_.result_delay = 0;
   options_.max_requeues = 0;
@@ -26,7 +28,7 @@ TEST_F(SlurmRunnerTest, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
 }
 
 // The array was known by its other task, and the accounting was not asked.
-TEST_F(SlurmRunnerTest, ATaskThatSlurmHasForgottenIsLookedUpWhileItsArrayIsKnown) {
+TEST_F(SlurmAnswers, ATaskThatSlurmHasForgottenIsLookedUpWhileItsArrayIsKnown) {
   Put("hold", "");
   options_.result_delay = 0;
   options_.max_requeues = 0;
@@ -41,7 +43,7 @@ TEST_F(SlurmRunnerTest, ATaskThatSlurmHasForgottenIsLookedUpWhileItsArrayIsKnown
   EXPECT_EQ(finished[0].end, JobEnd::kTimeCap);
 }
 
-TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
+TEST_F(SlurmAnswers, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
   SlurmRunner runner(options_, root_ / "campaign");
   Put("hold_sbatch", "sbatch: error: invalid partition specified: mian");
   const Job first[] = {Shell(1, "true")};
@@ -61,7 +63,7 @@ TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
   EXPECT_TRUE(finished[0].ok());
 }
 
-TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
+TEST_F(SlurmAnswers, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
   SlurmRunner runner(options_, root_ / "campaign");
   EXPECT_EQ(runner.Trouble(), "");
   Put("hold_sbatch", "sbatch: error: Unable to contact slurm controller (connect failure)");
@@ -75,7 +77,7 @@ TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
   EXPECT_FALSE(fs::exists(root_ / "submitted"));
 }
 
-TEST_F(SlurmRunnerTest, ASlurmThatDoesNotAnswerIsSaid) {
+TEST_F(SlurmAnswers, ASlurmThatDoesNotAnswerIsSaid) {
   Put("hold", "");
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(1, "true")};
@@ -90,7 +92,7 @@ TEST_F(SlurmRunnerTest, ASlurmThatDoesNotAnswerIsSaid) {
   EXPECT_EQ(runner.Trouble(), "");
 }
 
-TEST_F(SlurmRunnerTest, JobsThatSlurmHasNotBegunAreWaiting) {
+TEST_F(SlurmAnswers, JobsThatSlurmHasNotBegunAreWaiting) {
   Put("hold", "");
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
@@ -101,7 +103,7 @@ TEST_F(SlurmRunnerTest, JobsThatSlurmHasNotBegunAreWaiting) {
   EXPECT_EQ(runner.NumWaiting(), 1);
 }
 
-TEST_F(SlurmRunnerTest, AJobThatSlurmHasEndedTookAsLongAsSlurmSays) {
+TEST_F(SlurmAnswers, AJobThatSlurmHasEndedTookAsLongAsSlurmSays) {
   Put("hold", "");
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(1, "true")};
@@ -114,7 +116,7 @@ TEST_F(SlurmRunnerTest, AJobThatSlurmHasEndedTookAsLongAsSlurmSays) {
 }
 
 // Slurm says the same of a queue that is full for now and of a job that is too large for ever.
-TEST_F(SlurmRunnerTest, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
+TEST_F(SlurmAnswers, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
   SlurmRunner runner(options_, root_ / "campaign");
   Put("hold_sbatch",
       "sbatch: error: Job violates accounting/QOS policy (job submit limit, user's size and/or "
