@@ -29,20 +29,26 @@ double SquareMillimetres(double pixels, const Frame& frame) {
   return pixels * pixel * pixel;
 }
 
-Measured Rmse(const GrayImage& a, const GrayImage& b, const std::optional<Region>& region) {
+// Over the region of every picture of a film.
+Measured Rmse(const Profile& heap, const GrayImage& reference,
+              const std::optional<Region>& region) {
+  const int width = heap.frame.picture_width(), height = heap.frame.height;
   const Region where =
-      region.value_or(Region{.left = 0, .top = 0, .width = a.width, .height = a.height});
-  if (where.left > a.width - where.width || where.top > a.height - where.height) {
+      region.value_or(Region{.left = 0, .top = 0, .width = width, .height = height});
+  if (where.left > width - where.width || where.top > height - where.height) {
     return {.not_defined = "the region is not within the image"};
   }
   double squares = 0;
-  for (int y = where.top; y < where.top + where.height; ++y) {
-    for (int x = where.left; x < where.left + where.width; ++x) {
-      const double difference = a.at(x, y) - b.at(x, y);
-      squares += difference * difference;
+  for (int picture = 0; picture < heap.frame.num_pictures(); ++picture) {
+    const int left = picture * width + where.left;
+    for (int y = where.top; y < where.top + where.height; ++y) {
+      for (int x = left; x < left + where.width; ++x) {
+        const double difference = heap.image.at(x, y) - reference.at(x, y);
+        squares += difference * difference;
+      }
     }
   }
-  return {.value = std::sqrt(squares / where.width / where.height)};
+  return {.value = std::sqrt(squares / heap.frame.num_pictures() / where.width / where.height)};
 }
 
 Measured Iou(const GrayImage& a, const GrayImage& b) {
@@ -144,13 +150,13 @@ std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
   const double nebp = Nebp(reference.image);
   const Measured relative = nebp > 0 ? Measured{.value = sad / nebp}
                                      : Measured{.not_defined = "the reference heap is empty"};
-  return {{"sad_mm2", "mm2", Measured{.value = SquareMillimetres(sad, heap.frame)},
-           Measured{.value = 0}},
-          {"sad_relative", "-", relative, Measured{.value = 0}},
-          {"sad_px", "px", Measured{.value = sad}, Measured{.value = 0}},
-          {"rmse_gray", "gray", Rmse(heap.image, reference.image, options.rmse_region),
-           Measured{.value = 0}},
-          {"iou", "-", Iou(heap.image, reference.image), Measured{.value = 1}}};
+  return {
+      {"sad_mm2", "mm2", Measured{.value = SquareMillimetres(sad, heap.frame)},
+       Measured{.value = 0}},
+      {"sad_relative", "-", relative, Measured{.value = 0}},
+      {"sad_px", "px", Measured{.value = sad}, Measured{.value = 0}},
+      {"rmse_gray", "gray", Rmse(heap, reference.image, options.rmse_region), Measured{.value = 0}},
+      {"iou", "-", Iou(heap.image, reference.image), Measured{.value = 1}}};
 }
 
 std::string SizeText(const GrayImage& image) {

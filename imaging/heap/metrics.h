@@ -48,7 +48,8 @@ struct MetricOptions {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("repose", self.repose, {.doc = "how angles of repose are measured"});
-    visit("rmse_region", self.rmse_region, {.doc = "where rmse_gray is taken; else everywhere"});
+    visit("rmse_region", self.rmse_region,
+          {.doc = "where rmse_gray is taken, of each picture of a film; else everywhere"});
   }
 };
 

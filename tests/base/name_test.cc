@@ -19,7 +19,11 @@ TEST(Name, IsAnyLineThatNoFormatTakesForMore) {
 
 TEST(Name, HasNoLineBreakSlashOrFormula) {
   for (const char* name : {"", "a\nshell rm", "a\tb", "\x1b[2J", "d50/d90", "..\\x",
-                           "=cmd|'/c calc'!A1", "+1", "-x", "@sum", "\xff"}) {
+                           "=cmd|'/c calc'!A1", "+1", "-x", "@sum", "\xff",
+                           "\xc2\x9b"
+                           "2J",
+                           "a\u202e"
+                           "b"}) {
     EXPECT_TRUE(IsRefused(name)) << name;
   }
   EXPECT_FALSE(IsRefused(std::string(100, 'n')));

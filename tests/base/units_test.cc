@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "base/error.h"
 #include "tests/error_in.h"
 
@@ -24,6 +26,21 @@ TEST(Units, QuantitiesAsPeopleWriteThem) {
   EXPECT_DOUBLE_EQ(ParseQuantity("6 g/min", Dimension::kMassRate), 1e-4);
   EXPECT_DOUBLE_EQ(ParseQuantity(" 7 ", Dimension::kTime), 7);
   EXPECT_DOUBLE_EQ(ParseQuantity("30 %", Dimension::kNone), 0.3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("15 rpm", Dimension::kAngularVelocity), std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(ParseQuantity("90 deg/s", Dimension::kAngularVelocity), std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(ParseQuantity("180 deg", Dimension::kAngle), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(ParseQuantity("2 h", Dimension::kTime), 7200);
+  EXPECT_DOUBLE_EQ(ParseQuantity("3 ms", Dimension::kTime), 3e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("20 nm", Dimension::kLength), 2e-8);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1 bar", Dimension::kPressure), 1e5);
+  EXPECT_DOUBLE_EQ(ParseQuantity("2 kPa", Dimension::kPressure), 2e3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("70 GPa", Dimension::kPressure), 7e10);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1 N/mm^2", Dimension::kPressure), 1e6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("5 mN/m", Dimension::kSurfaceEnergy), 5e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("10 zJ", Dimension::kEnergy), 1e-20);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1 kg/L", Dimension::kDensity), 1000);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1 g0", Dimension::kAcceleration), 9.80665);
+  EXPECT_DOUBLE_EQ(ParseQuantity("2 t", Dimension::kMass), 2000);
 }
 
 std::string ErrorOf(std::string_view text, Dimension dimension) {

@@ -17,14 +17,14 @@ std::filesystem::path TempFile(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / name;
 }
 
-// 120 × 80 px, base of 60 px from column 30 to 89 with its top at row 70, a grey layer above.
+// 120 × 80 px, base of 60 px from column 20 to 79 with its top at row 70, a grey layer above.
 GrayImage DrawnMap() {
   GrayImage map{.width = 120, .height = 80, .pixels = std::vector<std::uint8_t>(120 * 80, 255)};
   for (int y = 50; y < 70; ++y) {
-    for (int x = 30; x < 90; ++x) map.at(x, y) = 0;
+    for (int x = 20; x < 80; ++x) map.at(x, y) = 0;
   }
-  for (int x = 40; x < 80; ++x) map.at(x, 49) = 128;
-  map.at(29, 69) = 200;  // a grain over the rim in some views
+  for (int x = 30; x < 70; ++x) map.at(x, 49) = 128;
+  map.at(19, 69) = 200;  // a grain over the rim in some views
   return map;
 }
 
@@ -32,7 +32,7 @@ TEST(Map, BaseIsFoundInTheLowestRow) {
   WritePng(TempFile("map.png"), DrawnMap());
   const Profile profile = ReadMap(TempFile("map.png"), 0.012, {});
   EXPECT_DOUBLE_EQ(profile.frame.plate_diameter / profile.frame.pixel_size, 60);
-  EXPECT_DOUBLE_EQ(profile.frame.center_x, 60);
+  EXPECT_DOUBLE_EQ(profile.frame.center_x, 50);
   EXPECT_DOUBLE_EQ(profile.frame.baseline, 70);
   EXPECT_EQ(profile.image, DrawnMap());
 }
@@ -45,7 +45,7 @@ TEST(Map, FrameBlanksWhatIsBelowTheBaseline) {
   const Frame frame{.width = 120,
                     .height = 80,
                     .pixel_size = 2e-4,
-                    .center_x = 60,
+                    .center_x = 50,
                     .baseline = 70,
                     .plate_diameter = 0.012};
   EXPECT_EQ(ReadMap(TempFile("plate.png"), 0.012, frame).image, DrawnMap());

@@ -63,7 +63,9 @@ TEST(Metrics, SadIsSymmetric) {
   const Profile a = Drawn(Cone);
   const Profile b = Drawn(Dome);
   EXPECT_EQ(Sad(a.image, b.image), Sad(b.image, a.image));
-  EXPECT_GT(Sad(a.image, b.image), 100);
+  double between = 0;  // the outlines
+  for (int x = -100; x < 100; ++x) between += std::abs(Cone(x + 0.5) - Dome(x + 0.5));
+  EXPECT_NEAR(Sad(a.image, b.image), between, 0.01 * between);
 }
 
 // A block of 20 × 10 px against one of 20 × 15: 100 px more, of 0.01 mm² each.
@@ -79,11 +81,41 @@ TEST(Metrics, NumbersOfTwoBlocks) {
   EXPECT_DOUBLE_EQ(Value(metrics, "iou"), 200.0 / 300);
   EXPECT_DOUBLE_EQ(Value(metrics, "rmse_gray"), 255 * std::sqrt(100.0 / 20000));
   EXPECT_DOUBLE_EQ(Value(metrics, "nebp_px"), 300);
+  EXPECT_DOUBLE_EQ(Value(metrics, "nebp_mm2"), 3);
   EXPECT_DOUBLE_EQ(FindMetric(metrics, "nebp_px").reference.value, 200);
   options.rmse_region = Region{.left = 90, .top = 75, .width = 20, .height = 5};  // the difference
   EXPECT_DOUBLE_EQ(Value(CompareProfiles(high, low, options), "rmse_gray"), 255);
   options.rmse_region = Region{.left = 190, .top = 0, .width = 20, .height = 5};
   EXPECT_FALSE(FindMetric(CompareProfiles(high, low, options), "rmse_gray").value.defined());
+}
+
+// The second picture was left out where a region is given.
+TEST(Metrics, ARegionIsThatOfEveryPictureOfAFilm) {
+  Frame frame = SmallFrame();
+  frame.width = 400;
+  frame.pictures = 2;
+  const GrayImage white{
+      .width = 400, .height = 100, .pixels = std::vector<std::uint8_t>(40000, 255)};
+  GrayImage later = white;
+  later.at(200 + 90, 75) = 0;
+  MetricOptions options;
+  options.rmse_region = Region{.left = 90, .top = 75, .width = 20, .height = 5};
+  const auto metrics =
+      CompareProfiles({.profile = {.image = later, .frame = frame}, .parts = {}},
+                      {.profile = {.image = white, .frame = frame}, .parts = {}}, options);
+  EXPECT_DOUBLE_EQ(Value(metrics, "rmse_gray"), 255 / std::sqrt(2 * 100.0));
+}
+
+// Slopes of 29, 30 and 31 degrees on both sides: a standard error of 1/√3 each.
+TEST(Metrics, StandardErrorsOfAnglesAreInDegrees) {
+  HeapImages heap{.profile = Drawn(Cone), .parts = {}};
+  for (const double angle : {29.0, 30.0, 31.0}) {
+    const double slope = std::tan(angle * kDegree);
+    heap.parts.push_back(
+        Drawn([=](double x) { return std::max(0.0, slope * (80 - std::abs(x))); }).image);
+  }
+  const Measured& right = FindMetric(DescribeProfile(heap), "repose_angle_1_right_deg").value;
+  EXPECT_NEAR(right.standard_error, 1 / std::sqrt(3.0), 0.05);
 }
 
 // The triangle of the same area is the cone itself: 26.57°, and nothing deviates from it but the
@@ -92,8 +124,11 @@ TEST(Metrics, ConeIsItsOwnTriangle) {
   const auto metrics = DescribeProfile({.profile = Drawn(Cone), .parts = {}});
   EXPECT_NEAR(Value(metrics, "triangle_angle_deg"), std::atan(0.5) / kDegree, 0.05);
   EXPECT_LT(Value(metrics, "static_cohesive_index"), 0.02);
-  EXPECT_GT(Value(DescribeProfile({.profile = Drawn(Dome), .parts = {}}), "static_cohesive_index"),
-            0.1);
+  // A parabola of height h over a base of 2 is h (1 − x²), its triangle 4 h (1 − x) / 3: they
+  // differ by 4/27 of its area.
+  EXPECT_NEAR(
+      Value(DescribeProfile({.profile = Drawn(Dome), .parts = {}}), "static_cohesive_index"),
+      4.0 / 27, 0.002);
 }
 
 // A shift by s moves both outlines: |dh/dx| s a column, 0.5 × 0.3 × 160 = 24 px of 3200.

@@ -67,6 +67,34 @@ inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = 
   return bytes;
 }
 
+// 16 × 16 px of one colour, as cameras store it: YCbCr, its colour at half the resolution.
+inline std::string EncodeFlatJpeg(const Color& color) {
+  jpeg_compress_struct jpeg;
+  jpeg_error_mgr errors;
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &buffer, &size);
+  jpeg.image_width = jpeg.image_height = 16;
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 100, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  std::vector<JSAMPLE> samples;
+  for (int x = 0; x < 16; ++x) {
+    samples.insert(samples.end(), color.begin(), color.end());
+  }
+  JSAMPLE* row = samples.data();
+  for (int y = 0; y < 16; ++y) jpeg_write_scanlines(&jpeg, &row, 1);
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  const std::string bytes(reinterpret_cast<char*>(buffer), size);
+  std::free(buffer);
+  return bytes;
+}
+
 struct TiffImage {
   GrayImage stored;
   std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;

@@ -226,6 +226,7 @@ TEST(ImageStrategy, FailedEvaluationsAreNotProposedAgain) {
     const auto point = strategy->Ask(1, {}).at(0).point;
     for (const auto& other : failed) EXPECT_FALSE(SamePoint(point, other));
     if (point[0] < 0.3) {
+      EXPECT_LT(i, 12U);  // that the design has, or that two failures have not yet told
       failed.push_back(point);
       strategy->Tell({.point = point, .failed = true});
     } else {

@@ -59,6 +59,8 @@ RawImage DecodePgm(std::string_view bytes, const std::string& name, double white
   CheckImageSize({.width = image.width, .height = image.height, .num_bytes = bytes.size()}, name);
   if (most < 1 || most > 65535) ThrowDamaged(name, "its white is not from 1 to 65535");
   image.bits = most > 255 ? 16 : 8;
+  // A white below that of 16 bits is stated by whoever knows the camera.
+  if (most > 255 && most < 65535) image.white = 65535;
   const std::int64_t full = most > 255 ? 65535 : 255;
   if (!is_text) cursor.Byte();  // the one blank after the header
   std::vector<std::uint16_t> row(static_cast<std::size_t>(image.width));

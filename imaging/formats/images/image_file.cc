@@ -34,7 +34,7 @@ double WhiteOf(std::uint16_t largest) {
 
 DatedImage DecodeDated(std::string_view bytes, const std::string& name) {
   RawImage raw = Decode(bytes, name, 0);
-  if (raw.bits == 16) raw = Decode(bytes, name, WhiteOf(raw.largest));
+  if (raw.bits == 16 && raw.white == 0) raw = Decode(bytes, name, WhiteOf(raw.largest));
   return {
       .image = Upright({.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)},
                        raw.orientation),

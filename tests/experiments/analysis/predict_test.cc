@@ -214,6 +214,13 @@ TEST_F(PredictTest, AMeasuredNumberIsInsideOrAnotherDrawGivesItOrNoneDoes) {
   };
   const PredictedNumber number = Run(options).numbers[0];
   EXPECT_TRUE(measured(number.mean).is_inside);
+  // The least likely draw lies outside of what all draws predict together, and gives itself.
+  const MeasuredThere extreme = measured(*std::ranges::max_element(
+      number.by_draw, {}, [&](double draw) { return std::abs(draw - number.mean); }));
+  EXPECT_FALSE(extreme.is_inside);
+  EXPECT_TRUE(extreme.nearest_is_inside);
+  EXPECT_THAT(PredictionText(Run(options), view_->record.parameters),
+              Not(HasSubstr("no draw gives it")));
   const MeasuredThere far = measured(1200);
   EXPECT_FALSE(far.is_inside);
   EXPECT_FALSE(far.nearest_is_inside);

@@ -177,9 +177,10 @@ TEST_F(Priors, ANuisanceIsSearchedAndNotAskedFor) {
   EXPECT_NEAR(answer.parameters[0].value, kTrueSliding, 0.05);
   const Answer alone = AnswerOf("alone", {.rolling = R"("fixed": 0.2)"});
   const double ratio = answer.parameters[0].Width() / alone.parameters[0].Width();
-  EXPECT_NEAR(std::log(ratio), 0, std::log(1.4));
+  // Nuisances that are told apart from it cost nothing but the noise of two searches, 10 % each.
+  EXPECT_NEAR(std::log(ratio), 0, std::log(1.25));
   EXPECT_NEAR(std::log(answer.posterior->region_volume / alone.posterior->region_volume), 0,
-              std::log(1.5));
+              std::log(1.25));
   const fs::path folder = scratch_.path() / "with";
   const ConsideredSet set = ConsiderSet(folder, {{"sliding_friction", "0.45"}});
   EXPECT_LT(set.credible_level.value(), 0.9);
