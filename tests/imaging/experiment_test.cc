@@ -21,6 +21,8 @@ namespace experiment_test {
 
 using testing::HasSubstr;
 
+// Layers of a lattice of grains under a cone, each grain moved a little, so that no line of sight
+// passes between them; the lowest layer lies on the plate.
 std::vector<base::Sphere> Cone() {
   constexpr double kRadius = 2e-4;
   constexpr double kSlope = 0.55;
@@ -70,6 +72,53 @@ TEST(Experiment, PhotographedSpheresGiveTheirDirectProjection) {
       EXPECT_NEAR(view.plate.baseline, 165 - 2.7 * number, 0.25) << view.photo;
     }
   }
+}
+
+// Three runs of one view, the third steeper than the others by 12 %.
+TEST(Experiment, NoiseFloorAndDeviationAreThoseOfTheRuns) {
+  const fs::path folder = EmptyFolder("floor");
+  for (int run = 1; run <= 3; ++run) {
+    Scene scene = SmallScene();
+    scene.seed = static_cast<std::uint64_t>(run);
+    WritePng(folder / Name(run, 0), Triangle(scene, run == 3 ? 0.56 : 0.5));
+  }
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  const NoiseFloor& floor = *experiment.noise_floor;
+  ASSERT_EQ(floor.sad_px.size(), 3u);
+  // Of triangles over 300 px: 0.06 × 150²/1 px of area between the two slopes; the first two differ
+  // from the mean of the others by half of it.
+  const double between = 0.06 * 150 * 150;
+  EXPECT_NEAR(floor.sad_px[0], between / 2, 0.1 * between);
+  EXPECT_NEAR(floor.sad_px[1], between / 2, 0.1 * between);
+  EXPECT_NEAR(floor.sad_px[2], between, 0.1 * between);
+  EXPECT_NEAR(floor.mean_sad_px, (floor.sad_px[0] + floor.sad_px[1] + floor.sad_px[2]) / 3, 1e-9);
+  const double pixel = 1e3 * experiment.aehp.frame.pixel_size;  // [mm]
+  EXPECT_NEAR(floor.mean_sad_mm2, floor.mean_sad_px * pixel * pixel, 1e-9);
+  EXPECT_NEAR(floor.mean_sad_relative, floor.mean_sad_px / Nebp(experiment.aehp.image), 1e-9);
+  // Black in one run of three: a standard deviation of 255/√3.
+  const Frame& frame = experiment.aehp.frame;
+  const int x = static_cast<int>(frame.center_x), y = static_cast<int>(frame.baseline - 79.5);
+  EXPECT_NEAR(experiment.standard_deviation.at(x, y), 255 / std::sqrt(3.0), 1);
+  EXPECT_EQ(experiment.standard_deviation.at(x, y + 40), 0);
+}
+
+// Darker than a share of the light: an edge that the lens blurs moves out by 1.84 px from 0.3 to
+// 0.8 of it, the plate's sides and the outline of 335 px alike (1.2 px × 1.53: the Gaussian's
+// quantiles at shares of 0.22 and 0.78 powder, which lets a tenth of the light through). In the
+// frame the plate stays as wide, so that 11 250 px of powder shrink by twice 3.7 of 300 px.
+TEST(Experiment, AThresholdMovesTheOutline) {
+  const fs::path folder = EmptyFolder("threshold");
+  WritePng(folder / Name(1, 0), Triangle(SmallScene()));
+  const auto measured = [&](double threshold) {
+    ExperimentOptions options = Options(folder);
+    options.threshold = threshold;
+    return MeasureExperiment(options);
+  };
+  const Experiment low = measured(0.3), high = measured(0.8);
+  const auto width = [](const Experiment& e) { return e.runs[0].views[0].plate.width; };
+  EXPECT_NEAR(width(high) - width(low), 2 * 1.84, 0.3);
+  const double shrinks = 2 * 2 * 1.84 / 300 * 11250;
+  EXPECT_NEAR(Nebp(high.aehp.image) - Nebp(low.aehp.image), 1.84 * 335 - shrinks, 60);
 }
 
 GrayImage Uniform(std::uint8_t grey) {

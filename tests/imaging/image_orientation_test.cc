@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "base/files/file.h"
 #include "imaging/formats/images/exif.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/orientation.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
@@ -115,30 +117,44 @@ TEST(ImageOrientation, TimeOfExposureIsReadAndADamagedOneIsNotKnown) {
 }
 
 // With a chunk eXIf after the header, as libpng writes it.
+std::string PngWith(std::string exif, const GrayImage& stored) {
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  const auto append = [](png_structp p, png_bytep data, png_size_t count) {
+    static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
+  };
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(stored.width),
+               static_cast<png_uint_32>(stored.height), 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()),
+                 reinterpret_cast<png_bytep>(exif.data()));
+  png_write_info(png, info);
+  for (int y = 0; y < stored.height; ++y) {
+    png_write_row(png, &stored.pixels[static_cast<std::size_t>(y * stored.width)]);
+  }
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
 TEST(ImageOrientation, PngIsTurnedUprightAsExifSays) {
   for (const Orientation& orientation : kOrientations) {
-    const GrayImage stored = Stored(Ramp(), orientation);
-    std::string exif = Exif(orientation.tag, true);
-    std::string bytes;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png_create_info_struct(png);
-    const auto append = [](png_structp p, png_bytep data, png_size_t count) {
-      static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
-    };
-    png_set_write_fn(png, &bytes, append, nullptr);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(stored.width),
-                 static_cast<png_uint_32>(stored.height), 8, PNG_COLOR_TYPE_GRAY,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()),
-                   reinterpret_cast<png_bytep>(exif.data()));
-    png_write_info(png, info);
-    for (int y = 0; y < stored.height; ++y) {
-      png_write_row(png, &stored.pixels[static_cast<std::size_t>(y * stored.width)]);
-    }
-    png_write_end(png, info);
-    png_destroy_write_struct(&png, &info);
+    const std::string bytes = PngWith(Exif(orientation.tag, true), Stored(Ramp(), orientation));
     EXPECT_EQ(DecodeGrayImage(bytes, "held.png"), Ramp()) << orientation.tag;
   }
+}
+
+TEST(ImageOrientation, APhotographKnowsWhenItWasTaken) {
+  const std::string exif = ExifWithTime(true);
+  base::WriteFileAtomically(TempFile("taken.png"), PngWith(exif, Ramp()));
+  base::WriteFileAtomically(TempFile("taken.jpg"),
+                            EncodeJpeg(Ramp(), std::string("Exif\0\0", 6) + exif));
+  base::WriteFileAtomically(TempFile("undated.jpg"), EncodeJpeg(Ramp()));
+  EXPECT_EQ(ReadPhotograph(TempFile("taken.png")).taken, 1769879109);
+  EXPECT_EQ(ReadPhotograph(TempFile("taken.jpg")).taken, 1769879109);
+  EXPECT_EQ(ReadPhotograph(TempFile("undated.jpg")).taken, std::nullopt);
 }
 
 // 8 bits go through libtiff's own conversion, which must not turn a second time; 16 bits do not.

@@ -25,8 +25,6 @@ inline Scene SmallScene() {
   return {.width = 420, .height = 220, .plate_depth = 30, .center_x = 210, .baseline = 165};
 }
 
-// Layers of a lattice of grains under a cone, each grain moved a little, so that no line of sight
-// passes between them; the lowest layer lies on the plate.
 inline fs::path EmptyFolder(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / ("experiment_" + name);
   fs::remove_all(folder);

@@ -36,7 +36,7 @@ TEST(PhotoPattern, FolderIsAHeap) {
     Touch(folder / name);
   }
   EXPECT_EQ(Read(folder, "{run}/*.jpg"), "monday 1:2 monday 2:2");
-  EXPECT_EQ(Read(folder, "{run}/{view}.jpg").size(), std::string("monday 1:2 monday 2:2").size());
+  EXPECT_EQ(Read(folder, "{run}/{view}.jpg"), "monday 1:2 monday 2:2");
   EXPECT_EQ(Read(folder, "{run}/*"), "monday 1:2 monday 2:2");
   EXPECT_EQ(RecognisePattern(folder), "{run}/*");
 }

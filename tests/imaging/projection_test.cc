@@ -145,6 +145,7 @@ TEST(GrainsOnPlate, KeepsWhatHangsTogetherDownToThePlate) {
   EXPECT_EQ(heap[0].position, spheres[0].position);
   EXPECT_EQ(heap[1].position, spheres[1].position);
   EXPECT_EQ(heap[2].position, spheres[3].position);
+  EXPECT_EQ(heap[3].position, spheres[7].position);
 }
 
 TEST(GrainsOnPlate, EmptyHeapIsEmpty) { EXPECT_TRUE(GrainsOnPlate({}, 8e-3).empty()); }

@@ -51,6 +51,7 @@ void ExpectTheTwo(const std::vector<base::Sphere>& spheres) {
   EXPECT_DOUBLE_EQ(spheres[0].position.z, 3e-3);
   EXPECT_DOUBLE_EQ(spheres[0].radius, 5e-4);
   EXPECT_DOUBLE_EQ(spheres[1].position.x, 0);
+  EXPECT_DOUBLE_EQ(spheres[1].position.y, 1e-3);
   EXPECT_DOUBLE_EQ(spheres[1].position.z, 2e-3);
   EXPECT_DOUBLE_EQ(spheres[1].radius, 2.5e-4);
 }

@@ -218,10 +218,11 @@ TEST_F(ClockChange, ChangesNeitherTrialsNorResultNorEndsByTheTimeBudget) {
 TEST_F(ClockChange, EvenBetweenAnyTwoReadings) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("restless");
+  clock_readings = 0;
   Set(86400, true);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   Set(0, false);
-  EXPECT_GT(clock_readings, 100);
+  EXPECT_GT(clock_readings, 50);  // some 75
   ExpectCalm(folder, calm);
   // What is measured is measured by a clock that only goes forwards.
   for (const journal::TrialRecord& trial : Trials(folder)) {

@@ -165,7 +165,9 @@ class Others(Escapes):
                          self.folder / script)
             text = self.assert_tame(done.stdout + done.stderr, script)
             self.assertIn("owned", text)
-            for line in (out / "evaluations.jsonl").read_bytes().splitlines():
+            evaluations = (out / "evaluations.jsonl").read_bytes().splitlines()
+            self.assertTrue(evaluations)
+            for line in evaluations:
                 self.assertIn("owned", json.loads(self.assert_tame(line, script))["failed"])
             for line in done.stderr.decode().splitlines():
                 if line.startswith("{"):

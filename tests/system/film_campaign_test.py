@@ -68,6 +68,8 @@ def check_answer(talus, root):
     # One film of 170 grains, so that a twentieth of the posterior's volume is all that may be denied it.
     assert said["credible_level"] <= 0.95, said
     result = json.loads((root / "run/result.json").read_text())
+    # A posterior that has learnt nothing holds 0.9 of the ranges.
+    assert result["posterior"]["region_90_volume_fraction"] < 0.75, result["posterior"]
     remains = result["remains"]
     assert [(r["experiment"], r["picture"], r["num_trials"]) for r in remains] == [("collapse", i, 2) for i in (1, 2, 3)], remains
     assert len({(root / "run" / r["file"]).read_bytes() for r in remains}) == 3

@@ -39,7 +39,8 @@ class Measure(unittest.TestCase):
             self.assertAlmostEqual(float(view["plate_width_px"]), 338, delta=0.5)
         self.assertEqual(len(list((self.aehp / "overlays").glob("*.png"))), 80)
         metrics = json.loads((self.aehp / "measure.json").read_text())["metrics"]
-        self.assertGreater(metrics["repose_angle_2_mean_deg"]["standard_error"], 0)
+        # Five runs of a heap whose angle scatters by a degree or so: degrees, not radians.
+        self.assertTrue(0.05 < metrics["repose_angle_2_mean_deg"]["standard_error"] < 2, metrics)
 
     def test_spheres_are_compared_in_the_frame_of_the_photographs(self):
         # One layer of touching grains: far less powder than in the photographs, so the SAD is close to

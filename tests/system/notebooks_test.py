@@ -57,7 +57,9 @@ def main(root):
     assert (out / "convergence.png").read_bytes().startswith(b"\x89PNG")
     assert len(run(journal, out).splitlines()) == 5
     said = run(heap, out / "trials/0001/heap.vtp")
-    assert said.startswith("1 grains, the highest reaches 0.00"), said
+    found = re.fullmatch(r"1 grains, the highest reaches (\S+) m\n?", said)
+    friction = float(re.search(r"4,(\S+)e-3", (out / "trials/0001/run.sh").read_text())[1])
+    assert abs(float(found[1]) - (5e-4 + friction * 1e-3)) < 1e-6, (said, friction)
     return 0
 
 

@@ -5,6 +5,7 @@ import ast
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -47,8 +48,9 @@ def main(talus, source, module, root):
         assert (folder / picture).read_bytes().startswith(b"\x89PNG"), picture
     said = ended.stdout
     assert "<b>powder A, a first look</b>, finished" in said  # the campaign, as HTML
-    assert "credible level" in said and "wide plate" in said
-
+    level = re.search(r"credible level (\d\.\d+)", said)
+    assert level and float(level[1]) < 0.99, said
+    assert "wide plate" in said
     return 0
 
 if __name__ == "__main__":

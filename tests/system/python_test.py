@@ -185,8 +185,19 @@ def check_simulation(root):
     assert profile.shape == (80, 120) and profile.min() == 0
     metrics = talus.compare(profile, profile, FRAME)
     assert metrics["sad_mm2"] == 0 and metrics["iou"] == 1
+    check_comparison()
     raises(talus.ConfigError, "case.json", talus.simulate, str(root / "absent/case.json"), str(root / "x"))
     check_interrupts(root)
+
+
+def check_comparison():
+    """A block of 20 x 15 px against one of 20 x 10: 100 px more, of 0.01 mm2 each; the reference comes second."""
+    blocks = [numpy.full((80, 120), 255, numpy.uint8) for _ in range(2)]
+    for block, height in zip(blocks, (15, 10)):
+        block[70 - height:70, 50:70] = 0
+    metrics = talus.compare(*blocks, FRAME)
+    expected = {"sad_px": 100, "sad_mm2": 1, "sad_relative": 0.5, "nebp_px": 300, "nebp_mm2": 3, "iou": 2 / 3}
+    assert all(abs(metrics[name] - value) < 1e-9 for name, value in expected.items()), metrics
 
 
 def check_interrupts(root):

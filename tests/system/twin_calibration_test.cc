@@ -91,7 +91,11 @@ bool IsRecovered(const Answer& result, int seed) {
     std::printf("seed %2d  %-17s true %.4g  found %.4g in %.4g … %.4g%s\n", seed, p.name.c_str(),
                 truth, p.value, p.credible_low, p.credible_high, inside ? "" : "  MISSED");
   }
+  std::printf("seed %2d  region of %.2g of what was searched\n", seed,
+              result.posterior->region_volume);
   std::fflush(stdout);
+  // Ranges as wide as the searched ones would hold any truth.
+  EXPECT_LT(result.posterior->region_volume, 0.7);
   return all;
 }
 
