@@ -73,4 +73,5 @@ def main():
         print(f"{name}: {more[0]:+.0f} mm^2 at 15 rpm, {more[1]:+.0f} at 45, swelling {more[1] - more[0]:.0f}", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

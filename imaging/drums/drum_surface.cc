@@ -94,6 +94,10 @@ DrumSurface MeasureSurface(const DrumMap& map) {
   const double low = Quantile(powder, kFringe) - map.circle.center_x;
   const double high = Quantile(powder, 1 - kFringe) - map.circle.center_x;
   surface.slope_angle = LineAngle(surface.points, low + (high - low) / 4, high - (high - low) / 4);
+  if (!surface.slope_angle.defined()) {
+    surface.fill.not_defined = surface.slope_angle.not_defined;
+    return surface;
+  }
   double total = 0, pixels = 0;
   for (int y = 0; y < map.image.height; ++y) {
     for (int x = 0; x < map.image.width; ++x) {
@@ -103,7 +107,7 @@ DrumSurface MeasureSurface(const DrumMap& map) {
       total += (255 - map.image.at(x, y)) / 255.0;
     }
   }
-  surface.fill = WholeFill(total / pixels, map.inner_radius / map.drum_radius);
+  surface.fill.value = WholeFill(total / pixels, map.inner_radius / map.drum_radius);
   return surface;
 }
 

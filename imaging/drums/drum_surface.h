@@ -3,7 +3,7 @@
 // The angle is that of the least-squares line through the surface in the middle half of the bed,
 // between the quarters of what lies from 2 to 98 % of the powder: as the rig `drum` measures
 // spheres. The fill is that of the whole disc: a flat surface bounds the same segment of it as of
-// what is seen within the ring.
+// what is seen within the ring. Powder that turns with the drum has neither.
 #pragma once
 
 #include <vector>
@@ -31,7 +31,7 @@ struct DrumPoint {
 struct DrumSurface {
   std::vector<DrumPoint> points;  // at half the views, column by column
   Measured slope_angle;           // [rad], > 0 where the powder is higher on the left
-  double fill = 0;                // share of the whole drum's disc, from what is seen of it [-]
+  Measured fill;                  // share of the whole drum's disc, from what is seen of it [-]
 };
 
 DrumSurface MeasureSurface(const DrumMap& map);

@@ -88,7 +88,7 @@ TEST_P(DrumAngles, AngleFillCircleAndTurningComeBack) {
   EXPECT_NEAR(drum.map.circle.radius, kRadius, 0.7);
   EXPECT_NEAR(drum.angle.value / kDegree, std::abs(GetParam()), 0.2);
   EXPECT_EQ(drum.turning, angle > 0 ? Turning::kClockwise : Turning::kCounterClockwise);
-  EXPECT_NEAR(drum.surface.fill, Segment(0.2), 0.005);
+  EXPECT_NEAR(drum.surface.fill.value, Segment(0.2), 0.005);
   EXPECT_LT(drum.map.inner_radius, kRadius - 4);  // the ring is left out
   EXPECT_GT(drum.map.inner_radius, kRadius - 8);
 }
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(BothWays, DrumAngles, testing::Values(-50, -20, 5, 33, 
 TEST(Drum, TheFillIsThatOfTheWholeDrum) {
   for (const double depth : {0.6, -0.6}) {
     const MeasuredDrum drum = Measure({.angle = 33 * kDegree, .depth = depth});
-    EXPECT_NEAR(drum.surface.fill, Segment(depth), 0.005);
+    EXPECT_NEAR(drum.surface.fill.value, Segment(depth), 0.005);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(Drum, TheScaleIsThatOfTheRingsOutsideWhereItIsGiven) {
   EXPECT_NEAR(frame.plate_diameter, 0.136, 1e-12);
   EXPECT_NEAR(frame.baseline, kCenterY + kRadius - 4, 1);
   EXPECT_LT(frame.disc_diameter.value(), 0.136);
-  EXPECT_NEAR(drum.surface.fill, Segment(0.6 * kRadius / (kRadius - 4)), 0.005);
+  EXPECT_NEAR(drum.surface.fill.value, Segment(0.6 * kRadius / (kRadius - 4)), 0.005);
   photos.circle_diameter = 0.13;
   EXPECT_THAT(ErrorOf(photos), HasSubstr("circle_diameter: is 0.13, must be the drum's diameter"));
 }
@@ -266,7 +266,9 @@ TEST(Drum, CentrifugingPowderIsNotTakenForUpsideDown) {
     }
   }
   const fs::path file = Write("centrifuging", photo);
-  EXPECT_EQ(ErrorOf({.photos = {file}, .diameter = 0.084}), "");
+  const MeasuredDrum drum = MeasureDrum({.photos = {file}, .diameter = 0.084});
+  EXPECT_FALSE(drum.surface.slope_angle.defined());
+  EXPECT_FALSE(drum.surface.fill.defined());  // that of a flat surface was said
 }
 
 // Far thicker at the top, and still all around.

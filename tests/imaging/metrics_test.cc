@@ -114,7 +114,8 @@ TEST(Metrics, StandardErrorsOfAnglesAreInDegrees) {
     heap.parts.push_back(
         Drawn([=](double x) { return std::max(0.0, slope * (80 - std::abs(x))); }).image);
   }
-  const Measured& right = FindMetric(DescribeProfile(heap), "repose_angle_1_right_deg").value;
+  const auto metrics = DescribeProfile(heap);
+  const Measured& right = FindMetric(metrics, "repose_angle_1_right_deg").value;
   EXPECT_NEAR(right.standard_error, 1 / std::sqrt(3.0), 0.05);
 }
 

@@ -221,7 +221,7 @@ class Predictor {
     }
   }
 
-  // The process by all its runs, and each test by a coarse run with the first of the sets.
+  // The process by all its runs, and each test by one run with the first of the sets.
   std::vector<FlowRegime> Regimes(const PredictionRuns& runs) const {
     std::vector<rigs::Regime> seen;
     std::size_t first = 0;
@@ -251,14 +251,14 @@ class Predictor {
 
   campaign::FolderCase TestCase(const std::string& name, std::size_t experiment) const {
     const Eigen::VectorXd unit = optimizer::VectorOf(design_.points.front());
-    return {
-        .folder = root_ / "tests" / base::FileWord(name),
-        .rig_case = campaign::CaseOf(view_.spec,
-                                     {.values = view_.space.ToNative(unit),
-                                      .seed = view_.spec.seed,
-                                      .scale_factor = view_.spec.coarse_graining.Levels().front(),
-                                      .experiment = static_cast<int>(experiment)},
-                                     std::nullopt)};
+    return {.folder = root_ / "tests" / base::FileWord(name),
+            .rig_case = campaign::CaseOf(view_.spec,
+                                         {.values = view_.space.ToNative(unit),
+                                          .seed = view_.spec.seed,
+                                          .scale_factor = NearestScaleFactor(
+                                              view_.spec.coarse_graining.Levels(), ScaleFactor()),
+                                          .experiment = static_cast<int>(experiment)},
+                                         std::nullopt)};
   }
 
   // Without numbers; `scale_factor`: of the runs that they are to be by.

@@ -123,6 +123,11 @@ FlowRegime DescribeRegime(const std::string& name, const std::vector<rigs::Regim
   return described;
 }
 
+double NearestScaleFactor(const std::vector<double>& of_campaign, double of_process) {
+  return *std::ranges::min_element(of_campaign, {},
+                                   [=](double f) { return std::abs(std::log(f / of_process)); });
+}
+
 std::vector<std::string> RegimeWarnings(const std::vector<FlowRegime>& regimes) {
   std::vector<std::string> warnings;
   const auto process = std::ranges::find_if(regimes, &FlowRegime::is_process);

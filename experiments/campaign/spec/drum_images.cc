@@ -55,6 +55,14 @@ void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images
   if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
 }
 
+double FillIn(const ExperimentSpec& e) {
+  const imaging::Measured fill = MeasureDrumOf(e).surface.fill;
+  if (fill.defined()) return fill.value;
+  throw base::ConfigError((e.images.map.empty() ? e.images.photos : e.images.map).string() +
+                          ": shows no fill: " + fill.not_defined +
+                          "; give rig.fill or the powder's mass");
+}
+
 }  // namespace
 
 bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
@@ -136,7 +144,7 @@ void SetDrumFills(CampaignSpec& spec) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!ShowsDrum(all[i]) || all[i].mass || HasFill(all[i]) || !IsAroundDrum(all[i])) continue;
     rigs::RigOptions rig = *all[i].rig;
-    rig.drum.fill = AreThere(all[i]) ? MeasureDrumOf(all[i]).surface.fill : kPlannedFill;
+    rig.drum.fill = AreThere(all[i]) ? FillIn(all[i]) : kPlannedFill;
     (spec.experiment ? spec.rig : (*spec.experiments)[i].rig) = std::move(rig);
   }
 }

@@ -37,7 +37,7 @@ ordered_json DrumJson(const imaging::MeasuredDrum& drum, std::size_t num_photos)
                     {"pixel_size_m", drum.pixel_size},
                     {"turning", base::NameOf(drum.turning)},
                     {"angle_deg", base::ToJson(drum.angle.value / kDrumDegree)},
-                    {"fill", drum.surface.fill}};
+                    {"fill", base::ToJson(drum.surface.fill.value)}};
   if (!drum.angle.defined()) json["not_defined"] = drum.angle.not_defined;
   if (num_photos < 2) return json;
   json["angle_standard_error_deg"] = base::ToJson(drum.angle.standard_error / kDrumDegree);
@@ -82,7 +82,11 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
   } else {
     print << "  no dynamic angle: " << drum.angle.not_defined << '\n';
   }
-  print << "  fill " << drum.surface.fill << " of the drum\n";
+  if (drum.surface.fill.defined()) {
+    print << "  fill " << drum.surface.fill.value << " of the drum\n";
+  } else {
+    print << "  no fill: " << drum.surface.fill.not_defined << '\n';
+  }
   if (num_photos > 1) print << "  surface sd " << drum.surface_sd * 1e3 << " mm\n";
 }
 

@@ -312,6 +312,13 @@ TEST(Regimes, AreOfThePowdersOwnGrains) {
   EXPECT_NEAR(regime.contact_duration[2] / regime.contact_duration[1], std::pow(10, 0.8), 1e-6);
 }
 
+TEST(Regimes, OfTestsAreThoseOfGrainsLikeTheProcesss) {
+  EXPECT_EQ(NearestScaleFactor({4, 2, 1}, 1), 1);
+  EXPECT_EQ(NearestScaleFactor({4, 2, 1}, 2.7), 2);
+  EXPECT_EQ(NearestScaleFactor({4, 2, 1}, 2.9), 4);  // in ratio
+  EXPECT_EQ(NearestScaleFactor({6, 4}, 1), 4);
+}
+
 TEST(Regimes, AreReadFromAResultAndNoneIsFoundWhereItHasNone) {
   const fs::path folder = fs::path(testing::TempDir()) / "talus_regime";
   fs::create_directories(folder);

@@ -17,6 +17,7 @@
 namespace talus::campaign {
 namespace drum_images_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -47,7 +48,7 @@ class DrumImages : public ::testing::Test {
  public:
   DrumImages() {
     fs::create_directories(scratch_.path() / "photos");
-    imaging::WritePng(scratch_.path() / "photos/one.png", Draw(false));
+    imaging::WritePng(photo_, Draw(false));
     imaging::WritePng(scratch_.path() / "map.png", Draw(true));
     imaging::WritePng(hazy_, Draw(true, 16));
   }
@@ -77,6 +78,7 @@ class DrumImages : public ::testing::Test {
 
  protected:
   const fs::path hazy_ = scratch_.path() / "hazy.png";
+  const fs::path photo_ = scratch_.path() / "photos/one.png";
 };
 
 TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
@@ -86,6 +88,21 @@ TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
     EXPECT_NEAR(e.rig->drum.fill.value(), 0.5, 0.01);
     EXPECT_FALSE(e.mass);
   }
+}
+
+// At 45 rpm and more powder may turn with its drum.
+TEST_F(DrumImages, PowderWithoutASurfaceSaysNoFill) {
+  imaging::GrayImage ring = Draw(false);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double right = x + 0.5 - kSide / 2.0, down = y + 0.5 - kSide / 2.0;
+      const bool powder = std::hypot(right, down + 4) > 0.7 * kRadius;
+      if (std::hypot(right, down) < kRadius) ring.at(x, y) = powder ? 20 : 240;
+    }
+  }
+  imaging::WritePng(photo_, ring);
+  EXPECT_THAT(ErrorOf(""), AllOf(HasSubstr("photos: shows no fill: the surface is too short"),
+                                 HasSubstr("give rig.fill")));
 }
 
 // The fill is searched in place of what the picture says: in the middle of its range.
