@@ -7,6 +7,9 @@
 namespace talus::base {
 namespace random_test {
 
+// The first number of SplitMix64 seeded with 0, as published: every campaign's bits rest on it.
+static_assert(Mix64(0x9e3779b97f4a7c15) == 0xe220a8397b1dcdaf);
+
 TEST(Random, SameKeySameNumbersOtherKeyOthers) {
   Random a(1, 2, 3);
   Random b(1, 2, 3);

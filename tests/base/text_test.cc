@@ -3,16 +3,39 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "base/median.h"
+#include "base/prime.h"
 #include "base/replaced.h"
 #include "base/text/base64.h"
 #include "base/text/csv.h"
+#include "base/text/joined.h"
+#include "base/text/lower.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 
 namespace talus::base {
 namespace text_test {
+
+TEST(Lists, AreReadAsSentences) {
+  EXPECT_EQ(Listed({}), "");
+  EXPECT_EQ(Listed({"a"}), "a");
+  EXPECT_EQ(Listed({"a", "b"}), "a and b");
+  EXPECT_EQ(Listed({"a", "b", "c"}), "a, b and c");
+  EXPECT_EQ(LowerFirst("Mass fallen"), "mass fallen");
+  EXPECT_EQ(LowerFirst("AOR 1"), "AOR 1");
+}
+
+TEST(Numbers, MediansAndPrimes) {
+  EXPECT_EQ(Median(std::vector{3.0, 1.0, 2.0}), 2);
+  EXPECT_EQ(Median(std::vector{4.0, 1.0, 3.0, 2.0}), 3);  // of an even number the upper one
+  EXPECT_EQ(PrimeFrom(0), 2U);
+  EXPECT_EQ(PrimeFrom(24), 29U);
+  EXPECT_EQ(PrimeFrom(29), 29U);
+  EXPECT_EQ(PrimeFrom(48), 53U);  // 49 is a square
+}
 
 TEST(NumberText, ShortRoundsAndExactReadsBack) {
   EXPECT_EQ(ShortNumber(0.123456), "0.1235");
