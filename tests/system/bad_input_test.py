@@ -29,6 +29,9 @@ import tempfile
 import threading
 import time
 
+from commented_json import without_comments
+from quick_campaign import PILE
+
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2])
 ROWS = SOURCE / "tests/system/bad_inputs.txt"
@@ -39,10 +42,6 @@ MOST_SECONDS = 60  # of processor time
 LONGEST_WAIT = 300  # [s]; on a machine with other work they take long
 MOST_MEGABYTES = 512  # the sanitizers take their share
 CONTROLS = re.compile("[\x00-\x08\x0b-\x1f\x7f\x80-\x9f]")  # but tab and line break
-
-
-def without_comments(text):
-    return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
 
 
 @functools.cache
@@ -116,20 +115,10 @@ GOOD = {  # name: content, and how it is tried
 }
 
 
-# An engine that takes no time: a pile of grains whose height follows the friction.
-DECK = """awk 'BEGIN {
-  print "x_m,y_m,z_m,diameter_m"
-  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
-    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
-      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
-}' >heap.csv
-"""
-
-
 def finished_campaign(folder):
     """What the rows call "done"."""
     (folder / "heap_deck").mkdir()
-    (folder / "heap_deck/run.sh").write_text(DECK)
+    (folder / "heap_deck/run.sh").write_text(PILE)
     small = spec()
     small["experiment"].update(pattern="run01_view{view}.jpg", pixel_size="200 um")
     small["parameters"] = {"sliding_friction": {"min": 0.1, "max": 0.9}}

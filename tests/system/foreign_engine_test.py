@@ -15,18 +15,16 @@ import sys
 import tempfile
 import time
 
+from commented_json import read_json
+
 talus, source, name = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
 example = source / "examples" / name
 NUM_TRIALS = 7  # 6 of the search and 1 confirmation
 PLATE_MM = 10
 
 
-def read(path):  # our JSON allows // comments; these files have none within a string
-    return json.loads(re.sub(r"//.*", "", path.read_text()))
-
-
 def cheap(folder):
-    spec = read(example / "campaign.json")
+    spec = read_json(example / "campaign.json")
     spec["engine"]["templates"] = str(example / spec["engine"]["templates"])
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
     spec["experiment"] |= {"pattern": "run01_view{view}.jpg", "pixel_size": "100 um"}
@@ -74,7 +72,7 @@ def check(trial, out, spec):
     """What holds for any heap of this powder on this plate."""
     assert trial["status"] == "ok", trial
     folder = out / "trials" / f"{int(trial['trial']):04}"
-    result = read(folder / "result.json")
+    result = read_json(folder / "result.json")
     counts = result["counts"]
     on_heap = counts["on_heap"]
     # The dump holds all grains that have not left the box, and some of those lie on the plate.
@@ -92,7 +90,7 @@ def check(trial, out, spec):
 
 def check_ranks(trial):
     """One trial of the campaign again as two MPI ranks: LAMMPS says how many it has."""
-    case = read(trial / "case.json")
+    case = read_json(trial / "case.json")
     case["engine"]["ranks"] = 2
     path = trial.parent / "ranks.json"
     path.write_text(json.dumps(case))
@@ -103,7 +101,7 @@ def check_ranks(trial):
     log = (trial.parent / "ranks/log.txt").read_text()
     grid = re.search(r"(\d+) by (\d+) by (\d+) MPI processor grid", log)
     assert grid and math.prod(map(int, grid.groups())) == 2, log[-2000:]
-    counts = read(trial.parent / "ranks/result.json")["counts"]
+    counts = read_json(trial.parent / "ranks/result.json")["counts"]
     assert 20 < counts["on_heap"], counts
 
 

@@ -16,17 +16,11 @@ import subprocess
 import sys
 import tempfile
 
+from quick_campaign import PILE
+
 TALUS, FULL_DISK, SOURCE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 # Of a verb: every write if it has no more, else as many spread over all.
 MOST_MOMENTS = int(os.environ.get("TALUS_FULL_DISK_MOMENTS", 10))
-
-DECK = """awk 'BEGIN {
-  print "x_m,y_m,z_m,diameter_m"
-  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
-    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
-      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
-}' >heap.csv
-"""
 
 SPEC = {
     "name": "quick",
@@ -69,7 +63,7 @@ def talus(arguments, folder, **environment):
 
 def inputs(folder):
     (folder / "deck").mkdir()
-    (folder / "deck/run.sh").write_text(DECK)
+    (folder / "deck/run.sh").write_text(PILE)
     (folder / "evaluate.sh").write_text("cat >/dev/null; echo '{\"value\": 1}'\n")
     for name, content in [("spec", SPEC), ("learning", LEARNING), ("further", FURTHER), ("scene", SCENE),
                           ("problem", PROBLEM), ("case", CASE)]:

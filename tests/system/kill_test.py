@@ -11,7 +11,6 @@ import json
 import os
 import pathlib
 import random
-import re
 import signal
 import sqlite3
 import subprocess
@@ -20,6 +19,7 @@ import tempfile
 import time
 
 from chance_arguments import chance_arguments
+from commented_json import read_json
 
 DECK = """#!/bin/sh
 setsid sleep 300 &
@@ -37,10 +37,6 @@ mv heap.part heap.csv
 KILLED = (-signal.SIGKILL, -signal.SIGINT, 130)  # by Ctrl-C before and after it is listened to
 
 
-def without_comments(text):
-    return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
-
-
 def search_two(spec, source):
     """Two tests and three scale factors in place of one of each."""
     heap = spec.pop("experiment") | {"name": "heap"}
@@ -53,7 +49,7 @@ def search_two(spec, source):
 
 
 def make_spec(source, folder, simulations, two):
-    spec = json.loads(without_comments((source / "examples/demo/campaign.json").read_text()))
+    spec = read_json(source / "examples/demo/campaign.json")
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
     # One run: reading five would take longer than most campaigns here live.
     spec["experiment"] |= {"pattern": "run01_view{view}.jpg", "pixel_size": "200 um"}

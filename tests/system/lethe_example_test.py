@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tempfile
 
+from commented_json import read_json
+
 # Takes the grains that were inserted, moves them onto the plate in a pile, and writes two parts.
 FAKE = r'''#!/usr/bin/env python3
 import re
@@ -71,7 +73,7 @@ for step, shown in (("00000", grains[:10]), ("01000", grains)):
 def main(root):
     talus, source = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     example = source / "examples/lethe"
-    spec = json.loads(re.sub(r"//.*", "", (example / "campaign.json").read_text()))
+    spec = read_json(example / "campaign.json")
     (root / "bin").mkdir()
     fake = root / "bin/lethe-particles"
     fake.write_text(FAKE)

@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 
+from commented_json import read_json
+
 talus, source = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 
 # The number that the deck gives, and what it makes it of.
@@ -38,10 +40,6 @@ LENGTHS = {"lifted_tube": None, "tapped_density": "diameter", "column_collapse":
 REPORTED = ("lifted_tube", "shear_cell")
 
 
-def read(path):
-    return json.loads(re.sub(r"(?m)^\s*//.*$", "", path.read_text()))
-
-
 def run(*arguments):
     done = subprocess.run([talus, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == 0, (arguments, done.stdout[-2000:], done.stderr[-2000:])
@@ -61,12 +59,12 @@ def simulate_examples(root):
         path = source / ("examples/scenes/heap_case.json" if rig == "lifted_tube" else f"examples/rigs/{rig}.json")
         run("validate", path)
         if rig == "lifted_tube":  # of an eighth of its grains: ten seconds are a long time here
-            case = read(path)
+            case = read_json(path)
             case["coarse_graining"] = {"scale_factor": 2}
             path = root / "heap_case.json"
             path.write_text(json.dumps(case))
         run("simulate", path, "--out", root / rig)
-        result = read(root / rig / "result.json")
+        result = read_json(root / rig / "result.json")
         got = result["observables"]
         assert set(got) | set(result.get("undefined", {})) == set(known[rig]), (rig, got)
         for name, value in got.items():
@@ -116,7 +114,7 @@ awk -v d={length} -v mu={{{{ sliding_friction }}}} -v mr={{{{ rolling_friction }
     run("validate", folder / "campaign.json")
     run("calibrate", folder / "campaign.json", "--out", out)
     assert {p.read_text().strip() for p in out.glob("trials/*/kind")} == {rig}
-    result = read(out / "result.json")
+    result = read_json(out / "result.json")
     confirmed = result["confirmed"][0]["experiments"][0]
     number = confirmed["scalars"][0]
     assert number["name"] == metric, number
