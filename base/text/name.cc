@@ -17,7 +17,7 @@ bool IsLetter(const Character& character) {
   return code > 0xa0 && !(code >= 0x2000 && code < 0x2070) && code != 0x3000;
 }
 
-// Of one line: a terminal or a browser obeys none of its characters.
+// A line of which neither a terminal nor a browser obeys any character.
 bool IsPlain(std::string_view text) {
   while (!text.empty()) {
     const Character character = FirstCharacter(text);

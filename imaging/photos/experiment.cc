@@ -156,14 +156,14 @@ Experiment MeasureFilm(const ExperimentOptions& options) {
 }
 
 // Else no heap would have an RMSE.
-void RequireWithin(const std::optional<Region>& region, const GrayImage& image) {
-  if (!region || (region->left <= image.width - region->width &&
-                  region->top <= image.height - region->height)) {
+void RequireWithin(const std::optional<Region>& region, const Frame& frame) {
+  const int width = frame.picture_width();
+  if (!region ||
+      (region->left <= width - region->width && region->top <= frame.height - region->height)) {
     return;
   }
   throw base::ConfigError("metrics.rmse_region: is not within the profiles of " +
-                          std::to_string(image.width) + " x " + std::to_string(image.height) +
-                          " px");
+                          std::to_string(width) + " x " + std::to_string(frame.height) + " px");
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ Experiment MeasureExperiment(const ExperimentOptions& options) {
   } else {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);
   }
-  RequireWithin(options.metrics.rmse_region, result.aehp.image);
+  RequireWithin(options.metrics.rmse_region, result.aehp.frame);
   CompareRuns(result);
   result.metrics = DescribeProfile(result.Images(), options.metrics);
   result.warnings = Gathered(result.warnings);
