@@ -17,23 +17,14 @@ bool IsLetter(const Character& character) {
   return code > 0xa0 && !(code >= 0x2000 && code < 0x2070) && code != 0x3000;
 }
 
-// A line of which neither a terminal nor a browser obeys any character.
-bool IsPlain(std::string_view text) {
-  while (!text.empty()) {
-    const Character character = FirstCharacter(text);
-    if (character.length == 0 || character.is_control) return false;
-    text.remove_prefix(character.length);
-  }
-  return true;
-}
-
 }  // namespace
 
 void RequireName(Problems& problems, std::string_view path, std::string_view name) {
   constexpr std::size_t kLongest = 100;
   problems.Require(!name.empty() && name.size() <= kLongest, path,
                    "must have 1 to 100 bytes; choose another name");
-  problems.Require(IsPlain(name), path, "must be one line of UTF-8 without control characters");
+  problems.Require(IsUtf8(name) && !HasControl(name), path,
+                   "must be one line of UTF-8 without control characters");
   problems.Require(name.find_first_of("/\\") == std::string_view::npos, path,
                    "must have no slash, since files are named after it; write _ instead");
   problems.Require(

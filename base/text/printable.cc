@@ -75,8 +75,12 @@ std::string Printable(std::string_view text) {
 }
 
 bool HasControl(std::string_view text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+  while (!text.empty()) {
+    const Character next = FirstCharacter(text);
+    if (next.is_control) return true;
+    text.remove_prefix(std::max<std::size_t>(next.length, 1));
+  }
+  return false;
 }
 
 void EraseTerminalLine(int descriptor) {

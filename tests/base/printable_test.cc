@@ -50,7 +50,14 @@ TEST(Printable, KnowsWhatIsUtf8) {
 
 TEST(Printable, ControlsAreFound) {
   EXPECT_FALSE(HasControl("a b ü"));
-  for (const char* text : {"\n", "a\tb", "\x1b", "\x7f"}) EXPECT_TRUE(HasControl(text));
+  EXPECT_FALSE(HasControl("l\xe4nge"));  // not UTF-8, but obeyed by nobody
+  for (const char* text : {"\n", "a\tb", "\x1b", "\x7f",
+                           "\xc2\x9b"
+                           "2J",
+                           "a\u202e"
+                           "b"}) {
+    EXPECT_TRUE(HasControl(text)) << text;
+  }
 }
 
 }  // namespace printable_test

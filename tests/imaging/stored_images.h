@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "imaging/formats/images/image_file.h"
@@ -31,9 +32,16 @@ inline std::filesystem::path TempFile(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / name;
 }
 
-// `num_inks` 1 grey, 4 CMYK, all inks alike.
-inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {},
-                              int num_inks = 1) {
+struct JpegKind {
+  int components = 1;
+  J_COLOR_SPACE space = JCS_GRAYSCALE;
+  int quality = 95;
+  std::string app1{};  // EXIF; none where empty
+};
+
+// `rows` of width × components samples each; RGB is stored as cameras do, with its colour at half
+// the resolution.
+inline std::string CompressJpeg(std::vector<std::vector<JSAMPLE>> rows, const JpegKind& kind) {
   jpeg_compress_struct jpeg;
   jpeg_error_mgr errors;
   jpeg.err = jpeg_std_error(&errors);
@@ -41,22 +49,19 @@ inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = 
   unsigned char* buffer = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&jpeg, &buffer, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(image.width);
-  jpeg.image_height = static_cast<JDIMENSION>(image.height);
-  jpeg.input_components = num_inks;
-  jpeg.in_color_space = num_inks == 1 ? JCS_GRAYSCALE : JCS_CMYK;
+  jpeg.image_width =
+      static_cast<JDIMENSION>(rows[0].size() / static_cast<std::size_t>(kind.components));
+  jpeg.image_height = static_cast<JDIMENSION>(rows.size());
+  jpeg.input_components = kind.components;
+  jpeg.in_color_space = kind.space;
   jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg_set_quality(&jpeg, kind.quality, TRUE);
   jpeg_start_compress(&jpeg, TRUE);
-  if (!app1.empty()) {
-    jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()),
-                      static_cast<unsigned>(app1.size()));
+  if (!kind.app1.empty()) {
+    jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(kind.app1.data()),
+                      static_cast<unsigned>(kind.app1.size()));
   }
-  for (int y = 0; y < image.height; ++y) {
-    std::vector<JSAMPLE> samples;
-    for (int x = 0; x < image.width; ++x) {
-      samples.insert(samples.end(), static_cast<std::size_t>(num_inks), image.at(x, y));
-    }
+  for (std::vector<JSAMPLE>& samples : rows) {
     JSAMPLE* row = samples.data();
     jpeg_write_scanlines(&jpeg, &row, 1);
   }
@@ -67,32 +72,26 @@ inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = 
   return bytes;
 }
 
-// 16 × 16 px of one colour, as cameras store it: YCbCr, its colour at half the resolution.
-inline std::string EncodeFlatJpeg(const Color& color) {
-  jpeg_compress_struct jpeg;
-  jpeg_error_mgr errors;
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
-  unsigned char* buffer = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&jpeg, &buffer, &size);
-  jpeg.image_width = jpeg.image_height = 16;
-  jpeg.input_components = 3;
-  jpeg.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 100, TRUE);
-  jpeg_start_compress(&jpeg, TRUE);
-  std::vector<JSAMPLE> samples;
-  for (int x = 0; x < 16; ++x) {
-    samples.insert(samples.end(), color.begin(), color.end());
+// `num_inks` 1 grey, 4 CMYK, all inks alike.
+inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {},
+                              int num_inks = 1) {
+  std::vector<std::vector<JSAMPLE>> rows(static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y) {
+    std::vector<JSAMPLE>& row = rows[static_cast<std::size_t>(y)];
+    for (int x = 0; x < image.width; ++x) {
+      row.insert(row.end(), static_cast<std::size_t>(num_inks), image.at(x, y));
+    }
   }
-  JSAMPLE* row = samples.data();
-  for (int y = 0; y < 16; ++y) jpeg_write_scanlines(&jpeg, &row, 1);
-  jpeg_finish_compress(&jpeg);
-  jpeg_destroy_compress(&jpeg);
-  const std::string bytes(reinterpret_cast<char*>(buffer), size);
-  std::free(buffer);
-  return bytes;
+  return CompressJpeg(
+      std::move(rows),
+      {.components = num_inks, .space = num_inks == 1 ? JCS_GRAYSCALE : JCS_CMYK, .app1 = app1});
+}
+
+// 16 × 16 px of one colour.
+inline std::string EncodeFlatJpeg(const Color& color) {
+  std::vector<JSAMPLE> row;
+  for (int x = 0; x < 16; ++x) row.insert(row.end(), color.begin(), color.end());
+  return CompressJpeg(std::vector(16, row), {.components = 3, .space = JCS_RGB, .quality = 100});
 }
 
 struct TiffImage {
