@@ -9,25 +9,16 @@ compared inside √0.6 of the drum's radius.
 
 TRIAL needs `state_0000.vtp` … at the pictures' times (`outputs.times` of its case, from one picture to the next 10 ms).
 """
-import base64
 import pathlib
-import re
 import sys
 
 import numpy
+from drum_pictures import RADIUS, array, counted, pixel_area
 from PIL import Image
 
-RADIUS = 42.0  # of the drum [mm]
-COUNTS = 0.6  # of the radius squared: farther out nothing is compared
 CLOSING = 7  # [px]
 PHOTO_CUT, SIMULATED_CUT = 30, 10  # of 255
 BATCH = 4000  # segments at a time
-
-
-def array(text, name):
-    """A DataArray of a state, base64 after a length of eight bytes."""
-    kind, body = re.search(rf'type="(\w+)" Name="{name}"[^>]*>\s*([^<\s]+)', text).groups()
-    return numpy.frombuffer(base64.b64decode(body)[8:], {"Float64": "<f8", "Float32": "<f4", "Int32": "<i4", "Int64": "<i8"}[kind])
 
 
 def grains(file):
@@ -90,13 +81,11 @@ def main():
     trial, photo = map(pathlib.Path, sys.argv[1:])
     dark = 255 - numpy.array(Image.open(photo).convert("L"))[::-1].T
     size = dark.shape[0]
-    across = numpy.linspace(-1, 1, size)
-    counts = across[:, None] ** 2 + across[None] ** 2 <= COUNTS
+    counts = counted(size)
     image = numpy.where(counts, swept(trial, size), 0)
     simulated = closed((image / image.max() * 255).astype(numpy.uint8)) > SIMULATED_CUT
     seen = closed(numpy.where(counts, dark, 0).astype(numpy.uint8)) > PHOTO_CUT
-    pixel = (2 * RADIUS / size) ** 2
-    alone = [pixel * (a & ~b & counts).sum() for a, b in ((seen, simulated), (simulated, seen))]
+    alone = [pixel_area(size) * (a & ~b & counts).sum() for a, b in ((seen, simulated), (simulated, seen))]
     print(f"{sum(alone):.1f} mm2: powder of the photograph alone {alone[0]:.1f}, of the simulation alone {alone[1]:.1f}")
 
 

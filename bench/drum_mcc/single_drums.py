@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import numpy
+from drum_pictures import counted, pixel_area
 from PIL import Image
 
 GRAMS = 44.64233 / 29185  # of a sphere
@@ -24,8 +25,6 @@ SETS = {  # restitution, sliding and rolling friction, surface energy, modulus, 
     "cohesive_8": (0.8, 0.5, 0.1, 8e-3, "1 MPa", 29630, (1.5, 1.0)),
 }
 LIGHT, BED = 0.969, 0.1  # of the photographs: grey where no powder is, and where it always is
-COUNTS = 0.6  # of the radius squared
-PIXEL = (84 / 406) ** 2  # [mm^2]
 
 
 def case(values, rpm, start):
@@ -53,9 +52,8 @@ def case(values, rpm, start):
 def area(picture, light, bed):
     """Darker than half, where it counts [mm^2]."""
     grey = numpy.array(Image.open(picture).convert("L")) / 255
-    across = numpy.linspace(-1, 1, grey.shape[0])
-    counts = across[:, None] ** 2 + across[None] ** 2 <= COUNTS
-    return PIXEL * ((grey < (light + bed) / 2) & counts).sum()
+    size = grey.shape[0]
+    return pixel_area(size) * ((grey < (light + bed) / 2) & counted(size)).sum()
 
 
 def main():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """two_engines.py TALUS LIGGGHTS OUT [--rpm 15] [--modulus 5e5]: the drum of single_drums.py's set "best" (ACCES' best friction, a softer
 powder) in this program and in LIGGGHTS, from the same settled grains, with the same walls, law and pictures: by how much the two mean
-silhouettes differ inside √0.6 of the drum's radius, cut at half, and by how much their surfaces. 2 and 20 min of a core each.
+silhouettes differ inside √0.6 of the drum's radius, cut at half, and how much powder lies on either side of the axis. 2 and 20 min of a core.
 
 What is finished in OUT is not run again. LIGGGHTS: constant torque ("cdt"), meshes that turn with the drum, front and back, too.
 """
@@ -11,12 +11,12 @@ import math
 import pathlib
 import subprocess
 
+import drum_pictures
 import numpy
 import single_drums
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from drum_pictures import array, counted
 
-RADIUS, HALF_WIDTH = 0.042, 0.01  # of the drum [m]
+RADIUS, HALF_WIDTH = 1e-3 * drum_pictures.RADIUS, 0.01  # of the drum [m]
 FACETS = 240  # the chord lies 4 um within the circle
 SIDE = 406  # of a picture [px]
 PIXEL = 2 * RADIUS / SIDE  # [m]
@@ -58,13 +58,11 @@ run {pictures}
 
 
 def read_state(path):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    data = reader.GetOutput()
-    fields = data.GetPointData()
-    arrays = {fields.GetArrayName(i): vtk_to_numpy(fields.GetArray(i)) for i in range(fields.GetNumberOfArrays())}
-    return vtk_to_numpy(data.GetPoints().GetData()).astype(float) - [0, 0, RADIUS], arrays
+    """Places from the drum's middle, diameters, velocities and spins of the grains [m, s]."""
+    text = path.read_text()
+    place = array(text, "Points").reshape(-1, 3).astype(float) - [0, 0, RADIUS]
+    velocity, spin = (array(text, name).reshape(-1, 3) for name in ("velocity_m_per_s", "angular_velocity_rad_per_s"))
+    return place, array(text, "diameter_m"), numpy.hstack([velocity, spin])
 
 
 def write_mesh(path, triangles):
@@ -88,11 +86,10 @@ def write_walls(out):
 
 
 def write_packing(out, state):
-    place, arrays = read_state(state)
-    movement = numpy.hstack([arrays["velocity_m_per_s"], arrays["angular_velocity_rad_per_s"]])
+    place, diameters, movement = read_state(state)
     box = "-0.045 0.045 xlo xhi\n-0.0115 0.0115 ylo yhi\n-0.045 0.045 zlo zhi\n"
     lines = [f"settled grains\n\n{len(place)} atoms\n1 atom types\n\n{box}\nAtoms\n"]
-    for i, (p, diameter) in enumerate(zip(place, arrays["diameter_m"]), 1):
+    for i, (p, diameter) in enumerate(zip(place, diameters), 1):
         lines.append("%d 1 %.9g 1580 %.9g %.9g %.9g" % (i, diameter, *p))
     lines.append("\nVelocities\n")
     for i, m in enumerate(movement, 1):
@@ -133,8 +130,8 @@ def dumped(path):
 
 
 def stated(path):
-    place, arrays = read_state(path)
-    return silhouette(place, arrays["diameter_m"] / 2)
+    place, diameters, _ = read_state(path)
+    return silhouette(place, diameters / 2)
 
 
 def main():
@@ -164,9 +161,7 @@ def main():
 
 
 def compare(ours, theirs):
-    across = numpy.linspace(-1, 1, SIDE)
-    counts = across[:, None] ** 2 + across[None] ** 2 <= single_drums.COUNTS
-    mm2 = (1e3 * PIXEL) ** 2
+    counts, mm2 = counted(SIDE), drum_pictures.pixel_area(SIDE)
     for name, cut in (("at half of the mean", lambda seen: numpy.mean(seen, axis=0) > 0.5),
                       ("in any picture", lambda seen: numpy.any(seen, axis=0))):
         a, b = cut(ours) & counts, cut(theirs) & counts

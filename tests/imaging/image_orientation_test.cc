@@ -1,6 +1,5 @@
 // Photographs are turned upright as their files say.
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include "base/files/file.h"
 #include "imaging/formats/images/exif.h"
@@ -116,27 +115,12 @@ TEST(ImageOrientation, TimeOfExposureIsReadAndADamagedOneIsNotKnown) {
   EXPECT_EQ(ExifTime(Exif(6, true)), std::nullopt);
 }
 
-// With a chunk eXIf after the header, as libpng writes it.
-std::string PngWith(std::string exif, const GrayImage& stored) {
-  std::string bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png_create_info_struct(png);
-  const auto append = [](png_structp p, png_bytep data, png_size_t count) {
-    static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
-  };
-  png_set_write_fn(png, &bytes, append, nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(stored.width),
-               static_cast<png_uint_32>(stored.height), 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()),
-                 reinterpret_cast<png_bytep>(exif.data()));
-  png_write_info(png, info);
-  for (int y = 0; y < stored.height; ++y) {
-    png_write_row(png, &stored.pixels[static_cast<std::size_t>(y * stored.width)]);
-  }
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return bytes;
+std::string PngWith(const std::string& exif, const GrayImage& stored) {
+  return CompressPng(
+      {.width = static_cast<png_uint_32>(stored.width),
+       .height = static_cast<png_uint_32>(stored.height),
+       .exif = exif},
+      [&](png_uint_32 y) { return &stored.pixels[y * static_cast<std::size_t>(stored.width)]; });
 }
 
 TEST(ImageOrientation, PngIsTurnedUprightAsExifSays) {

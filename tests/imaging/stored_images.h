@@ -8,9 +8,11 @@
 // clang-format on
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +94,38 @@ inline std::string EncodeFlatJpeg(const Color& color) {
   std::vector<JSAMPLE> row;
   for (int x = 0; x < 16; ++x) row.insert(row.end(), color.begin(), color.end());
   return CompressJpeg(std::vector(16, row), {.components = 3, .space = JCS_RGB, .quality = 100});
+}
+
+struct PngKind {
+  png_uint_32 width = 0;
+  png_uint_32 height = 0;
+  int bits = 8;
+  int color_type = PNG_COLOR_TYPE_GRAY;
+  std::string exif{};  // a chunk eXIf after the header, as libpng writes it; none where empty
+};
+
+// `row` gives the bytes of each row from the top. Compressed little, which is fast.
+inline std::string CompressPng(PngKind kind,
+                               const std::function<const png_byte*(png_uint_32)>& row) {
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  const auto append = [](png_structp writer, png_bytep data, png_size_t count) {
+    static_cast<std::string*>(png_get_io_ptr(writer))->append(reinterpret_cast<char*>(data), count);
+  };
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, kind.width, kind.height, kind.bits, kind.color_type, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(png, 1);
+  if (!kind.exif.empty()) {
+    png_set_eXIf_1(png, info, static_cast<png_uint_32>(kind.exif.size()),
+                   reinterpret_cast<png_bytep>(kind.exif.data()));
+  }
+  png_write_info(png, info);
+  for (png_uint_32 y = 0; y < kind.height; ++y) png_write_row(png, row(y));
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
 }
 
 struct TiffImage {
