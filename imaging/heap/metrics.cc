@@ -35,7 +35,7 @@ Measured Rmse(const Profile& heap, const GrayImage& reference,
   const int width = heap.frame.picture_width(), height = heap.frame.height;
   const Region where =
       region.value_or(Region{.left = 0, .top = 0, .width = width, .height = height});
-  if (where.left > width - where.width || where.top > height - where.height) {
+  if (!where.IsWithin(heap.frame)) {
     return {.not_defined = "the region is not within the image"};
   }
   double squares = 0;
@@ -189,6 +189,10 @@ void Region::Validate(base::Problems& problems) const {
   problems.Require(top >= 0, "top_px", top, "must not be negative");
   problems.Require(width > 0, "width_px", width, "must be positive");
   problems.Require(height > 0, "height_px", height, "must be positive");
+}
+
+bool Region::IsWithin(const Frame& frame) const {
+  return left <= frame.picture_width() - width && top <= frame.height - height;
 }
 
 double Nebp(const GrayImage& image) {

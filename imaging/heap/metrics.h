@@ -39,6 +39,8 @@ struct Region {
     visit("height_px", self.height, {.required = true, .doc = "number of rows, > 0"});
   }
   void Validate(base::Problems& problems) const;
+  // Whether it lies within a picture of the frame, each of them where there are several.
+  bool IsWithin(const Frame& frame) const;
 };
 
 struct MetricOptions {

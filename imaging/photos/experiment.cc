@@ -157,13 +157,10 @@ Experiment MeasureFilm(const ExperimentOptions& options) {
 
 // Else no heap would have an RMSE.
 void RequireWithin(const std::optional<Region>& region, const Frame& frame) {
-  const int width = frame.picture_width();
-  if (!region ||
-      (region->left <= width - region->width && region->top <= frame.height - region->height)) {
-    return;
-  }
+  if (!region || region->IsWithin(frame)) return;
   throw base::ConfigError("metrics.rmse_region: is not within the profiles of " +
-                          std::to_string(width) + " x " + std::to_string(frame.height) + " px");
+                          std::to_string(frame.picture_width()) + " x " +
+                          std::to_string(frame.height) + " px");
 }
 
 }  // namespace
