@@ -22,7 +22,7 @@ install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus
   PATTERN campaign EXCLUDE)  # where one was run
 # What they link to stands where it does in the source tree.
 foreach(file README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE CITATION.cff bench/RECORD.md
-    bench/drum_mcc/README.md bench/drum_mcc/swelling.py bench/optimizers/README.md bench/optimizers/RECORD.md
+    bench/drum_mcc/README.md bench/drum_mcc/RECORD.md bench/drum_mcc/swelling.py bench/optimizers/README.md bench/optimizers/RECORD.md
     tests/fuzz/README.md third_party/echarts/README.md)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/${folder})
