@@ -18,6 +18,11 @@ namespace talus::journal {
 namespace {
 
 void CheckThatItIsAJournal(Database& database, const std::filesystem::path& path) {
+  if (database.Number("SELECT COUNT(*) FROM sqlite_schema") == 0) {
+    throw base::Error(path.string() +
+                      ": holds no campaign yet; `talus resume` begins one that was ended before "
+                      "it was written");
+  }
   const std::int64_t version = database.Number("PRAGMA user_version");
   if (database.Number("PRAGMA application_id") != kJournalApplicationId) {
     throw base::Error(path.string() + ": is not a journal of talus, or is damaged");

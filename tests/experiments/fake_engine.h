@@ -60,7 +60,9 @@ class FakeEngine : public trials::TrialEngine {
                                                      num_pictures, options_.film_grows));
     std::string script;
     if (options_.sleep > 0) script += "sleep " + std::to_string(options_.sleep) + "\n";
-    if (std::stoi(folder.filename()) % 3 + 1 == options_.slow_third) script += "sleep 0.1\n";
+    if (options_.slow_third > 0 && std::stoi(folder.filename()) % 3 + 1 == options_.slow_third) {
+      script += "sleep 0.1\n";
+    }
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
       script = "sleep 3600\n";
     }

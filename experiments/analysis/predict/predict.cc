@@ -25,6 +25,7 @@
 #include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
+#include "experiments/analysis/predict/test_regimes.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
@@ -234,31 +235,14 @@ class Predictor {
     std::vector<FlowRegime> regimes{
         DescribeRegime(case_.name, seen, FolderCaseOf(runs, first).rig_case)};
     regimes.front().is_process = true;
-    const auto tests = campaign::ExperimentsOf(view_.spec);
-    const auto at = [&](std::size_t test) { return TestCase(tests[test].name, test); };
-    if (!campaign::RunCases(
-            {.count = tests.size(), .at = at, .time_cap = view_.spec.trial_time_cap}, parts_)) {
-      return {};
-    }
-    for (std::size_t test = 0; test < tests.size(); ++test) {
-      const campaign::FolderCase run = at(test);
-      if (const auto regime = RegimeIn(run.folder)) {
-        regimes.push_back(DescribeRegime(tests[test].name, {*regime}, run.rig_case));
-      }
-    }
+    const auto tests = TestRegimes(view_,
+                                   {.set = optimizer::VectorOf(design_.points.front()),
+                                    .scale_factor = ScaleFactor(),
+                                    .prediction = root_},
+                                   parts_);
+    if (!tests) return {};
+    regimes.insert(regimes.end(), tests->begin(), tests->end());
     return regimes;
-  }
-
-  campaign::FolderCase TestCase(const std::string& name, std::size_t experiment) const {
-    const Eigen::VectorXd unit = optimizer::VectorOf(design_.points.front());
-    return {.folder = root_ / "tests" / base::FileWord(name),
-            .rig_case = campaign::CaseOf(view_.spec,
-                                         {.values = view_.space.ToNative(unit),
-                                          .seed = view_.spec.seed,
-                                          .scale_factor = NearestScaleFactor(
-                                              view_.spec.coarse_graining.Levels(), ScaleFactor()),
-                                          .experiment = static_cast<int>(experiment)},
-                                         std::nullopt)};
   }
 
   // Without numbers; `scale_factor`: of the runs that they are to be by.

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/files/checked_text.h"
 #include "base/json/json_reader.h"
 #include "engine/scene/scene_spec.h"
 #include "experiments/analysis/predict/affordable.h"
@@ -15,6 +16,7 @@
 #include "experiments/analysis/predict/prediction_plan.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/scene_engine.h"
+#include "experiments/analysis/predict/test_regimes.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -321,6 +323,30 @@ TEST_F(PredictTest, WithoutASecondRunOfASetNothingIsSaidOfScatter) {
   EXPECT_TRUE(std::isnan(p.numbers.at(0).run_sd));
   EXPECT_TRUE(std::isnan(p.numbers.at(0).parameters_share));
   EXPECT_THAT(PredictionText(p, view_->record.parameters), HasSubstr("no set was run twice"));
+}
+
+TEST_F(PredictTest, ATestThatAnotherPredictionHasSimulatedIsReadThere) {
+  const auto regimes = [&](const fs::path& prediction, double sliding) {
+    fs::create_directories(prediction);
+    return TestRegimes(
+        *view_, {.set = Eigen::Vector2d(sliding, 0.5), .scale_factor = 1, .prediction = prediction},
+        {.runner = campaign::MakeDrawnRunner(view_->spec, view_->folder.root),
+         .engine = std::make_unique<FakeEngine>(campaign::FakeEngineOptions{})});
+  };
+  const fs::path predictions = PredictFolder(folder_);
+  ASSERT_THAT(*regimes(predictions / "first", 0.5), testing::IsEmpty());  // of drawn heaps
+  const auto tests = fs::directory_iterator(predictions / "first/tests");
+  const fs::path simulated = begin(tests)->path();
+  std::ofstream(simulated / "result.json") << base::WithChecksum(
+      R"({"regime": {"inertial_number": [0.1, 0.2, 0.3], "pressure_Pa": [4, 5, 6],
+                     "shear_rate_per_s": [7, 8, 9]}})"
+      "\n");
+  const auto seen = regimes(predictions / "second", 0.5);
+  ASSERT_EQ(seen->size(), 1u);
+  EXPECT_EQ(seen->front().pressure[1], 5);
+  EXPECT_FALSE(fs::exists(predictions / "second/tests"));
+  EXPECT_THAT(*regimes(predictions / "third", 0.6), testing::IsEmpty());  // with another set
+  EXPECT_TRUE(fs::exists(predictions / "third/tests" / simulated.filename() / "profile.png"));
 }
 
 TEST_F(PredictTest, ASceneIsFilledWithTheCampaignsPowder) {

@@ -13,6 +13,7 @@
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/database.h"
 #include "experiments/journal/schema.h"
+#include "tests/error_in.h"
 
 namespace talus::journal {
 namespace journal_test {
@@ -109,6 +110,15 @@ TEST_F(JournalTest, OneOfAnotherVersionIsRefused) {
             << error.what();
       }
     }
+  }
+}
+
+// A kill between the making of the file and the writing of the campaign leaves it.
+TEST_F(JournalTest, AnEmptyOneIsSaidToHoldNoCampaign) {
+  { std::ofstream empty(File()); }
+  for (const auto open : {&Journal::Open, &Journal::OpenReadOnly}) {
+    EXPECT_THAT(ErrorIn<base::Error>([&] { open(File()); }),
+                HasSubstr("holds no campaign yet; `talus resume`"));
   }
 }
 
