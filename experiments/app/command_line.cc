@@ -81,6 +81,12 @@ double FlagQuantity(const std::string& flag, const std::string& text, base::Dime
   }
 }
 
+double BudgetTime(const std::string& text) {
+  const double seconds = FlagQuantity("--budget", text, base::Dimension::kTime);
+  if (seconds > 0) return seconds;
+  throw base::ConfigError("--budget: must be positive, such as \"2 min\", not \"" + text + "\"");
+}
+
 std::map<std::string, std::string> ReadSetArgument(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> set;
   for (const std::string& text : texts) {

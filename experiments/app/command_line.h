@@ -25,6 +25,9 @@ std::string Suggestion(const CLI::App& app, std::span<const char* const> argumen
 // What is typed after a flag, in SI; throws base::ConfigError that begins with the flag.
 double FlagQuantity(const std::string& flag, const std::string& text, base::Dimension dimension);
 
+// The core time that is typed after --budget [s]; throws base::ConfigError unless it is positive.
+double BudgetTime(const std::string& text);
+
 // NAME=VALUE… as a parameter set. Throws base::ConfigError for another form, and for a name that is
 // given twice.
 std::map<std::string, std::string> ReadSetArgument(const std::vector<std::string>& texts);

@@ -114,9 +114,7 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
               << ": talus sensitivity " << base::ShellWord(folder.string()) << std::endl;
     return;
   }
-  options.most_followed_core_time = allowed - takes;
-  std::filesystem::create_directories(place);
-  const campaign::CampaignLock lock(place);  // `talus sensitivity` may run beside it
+  options.core_time = allowed;
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);
   if (tell.json) {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/units.h"
 #include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/app/commands.h"
@@ -26,12 +25,7 @@ struct NextArguments {
 
 void Next(NextArguments& arguments) {
   if (!arguments.budget.empty()) {
-    const double core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
-    if (!(core_time > 0)) {
-      throw base::ConfigError("--budget: must be positive, such as \"2 min\", not \"" +
-                              arguments.budget + "\"");
-    }
-    arguments.request.core_time = core_time;
+    arguments.request.core_time = BudgetTime(arguments.budget);
   }
   if (!arguments.goal.empty()) {
     arguments.request.goal = {.file = arguments.goal, .observable = arguments.observable};

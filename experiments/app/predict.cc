@@ -14,7 +14,6 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/name.h"
-#include "base/units.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
@@ -50,7 +49,7 @@ analysis::PredictOptions OptionsFor(const std::string& file, const PredictArgume
   options.file = file;
   options.set = ReadSetArgument(arguments.set);
   if (!arguments.budget.empty()) {
-    options.core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
+    options.core_time = BudgetTime(arguments.budget);
   }
   return options;
 }
@@ -108,7 +107,8 @@ void AddPredictCommand(CLI::App& app) {
   command->add_option(
       "--budget", arguments->budget,
       "core time for the runs of one case, such as \"10 min\"; one run a draw and seed at the "
-      "case's own scale factor is made whatever it takes; default: 150 s");
+      "scale factor that the case states, else at the coarsest of the campaign's, is made whatever "
+      "it takes; default: 150 s");
   CLI::Option* set = command->add_option(
       "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
   set->excludes(draws);

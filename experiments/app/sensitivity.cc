@@ -15,8 +15,8 @@
 #include "base/json/json_writer.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
-#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -27,6 +27,7 @@ struct SensitivityArguments {
   std::vector<std::string> moves;
   std::optional<double> scale_factor;
   int most_replicates = 16;
+  std::string budget;
   bool json = false;
 };
 
@@ -46,14 +47,15 @@ void Sensitivity(const SensitivityArguments& arguments) {
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
   auto moves = ReadMoves(arguments.moves);
   const std::filesystem::path folder = analysis::SensitivityFolder(view.folder.root);
-  std::filesystem::create_directories(folder);
-  const campaign::CampaignLock lock(folder);  // its simulations are one process's at a time
   analysis::SensitivityOptions options{
       .moves = std::move(moves),
       .scale_factor = arguments.scale_factor,
       .most_replicates = arguments.most_replicates,
       .parts = campaign::MakeParts(view.spec, folder),
       .tell = [](const std::string& line) { std::cerr << line << std::endl; }};
+  if (!arguments.budget.empty()) {
+    options.core_time = BudgetTime(arguments.budget);
+  }
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);
   std::cout << (arguments.json ? base::JsonText(base::ToJson(table), 2) + "\n"
@@ -78,6 +80,10 @@ void AddSensitivityCommand(CLI::App& app) {
       ->add_option("--replicates", arguments->most_replicates,
                    "simulations of each experiment at most, where fewer do not tell")
       ->check(CLI::Range(analysis::kFirstReplicates, 1000));
+  command->add_option(
+      "--budget", arguments->budget,
+      "core time for its simulations, such as \"5 min\"; the first of each thing moved are made "
+      "whatever they take; default: as they need");
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { Sensitivity(*arguments); });
 }

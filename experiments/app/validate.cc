@@ -14,6 +14,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
+#include "engine/scene/scene_warnings.h"
 #include "experiments/analysis/design/design_spec.h"
 #include "experiments/analysis/design/design_text.h"
 #include "experiments/analysis/next/campaign_goal.h"
@@ -197,6 +198,9 @@ void ValidateScene(const base::JsonFile& file, bool) {
   std::cout << file.path.string() << ": is a scene in order\n  spheres           "
             << loaded.scene.particles.size() << "\n  walls             "
             << loaded.scene.walls.size() << '\n';
+  for (const std::string& warning : engine::SceneWarnings(loaded.spec, loaded.scene)) {
+    std::cout << "  warning: " << warning << '\n';
+  }
 }
 
 void ValidateProblem(const base::JsonFile& file, bool) {
@@ -217,21 +221,29 @@ void ValidateCommandCase(const base::JsonFile& file, bool) {
   PrintEngine(command_case.engine);
 }
 
+// A problem's parameters are a list, a campaign's an object; its candidates are a table's name.
+bool IsProblem(const nlohmann::json& root) {
+  if (!root.is_object()) return false;
+  return root.contains("evaluations") || root.value("parameters", nlohmann::json()).is_array() ||
+         root.value("candidates", nlohmann::json()).is_string();
+}
+
 // What a file is: by a key that only it has. The order matters: a campaign has a powder, too,
-// a problem of a table has candidates, and what is to be searched without data is a plan.
+// and what is to be searched without data is a plan.
 struct ValidatedKind {
   const char* key;
   void (*validate)(const base::JsonFile& file, bool with_experiment);
 };
 constexpr ValidatedKind kKinds[] = {
-    {"evaluations", &ValidateProblem},  {"candidates", &ValidateDesign},
-    {"budget", &ValidateCampaign},      {"experiment", &ValidateCampaign},
-    {"experiments", &ValidateCampaign}, {"engine", &ValidateCommandCase},
-    {"target", &ValidateProblem},       {"parameters", &ValidateDesign},
-    {"powder", &ValidateHeap},          {"materials", &ValidateScene}};
+    {"candidates", &ValidateDesign},   {"budget", &ValidateCampaign},
+    {"experiment", &ValidateCampaign}, {"experiments", &ValidateCampaign},
+    {"engine", &ValidateCommandCase},  {"target", &ValidateProblem},
+    {"parameters", &ValidateDesign},   {"powder", &ValidateHeap},
+    {"materials", &ValidateScene}};
 
 void Validate(const std::string& path, bool with_experiment) {
   const base::JsonFile file = base::ReadJsonFile(path);
+  if (IsProblem(file.root)) return ValidateProblem(file, with_experiment);
   for (const ValidatedKind& kind : kKinds) {
     if (file.root.is_object() && file.root.contains(kind.key)) {
       return kind.validate(file, with_experiment);

@@ -72,12 +72,12 @@ void ValidateTaps(const Case& c, const TapRule& taps, const std::string& place,
   const double ratio = std::pow(share / kMaxImpactShare, 2.5);
   problems.Require(
       share <= kMaxImpactShare, path, taps.height,
-      "m lets grains sink " + base::ShortNumber(share) +
+      "in m, and lets grains sink " + base::ShortNumber(share) +
           " of their radius into the floor, above the " + base::ShortNumber(kMaxImpactShare) +
           " that holds; tap from " + base::ShortNumber(1e3 * taps.height / ratio) +
           " mm at most, or raise youngs_modulus " + base::ShortNumber(ratio) + " times");
   problems.Require(taps.height <= kHighest, path, taps.height,
-                   "m, must be at most 0.05: tapping devices let it fall by 3 to 14 mm, and "
+                   "in m, must be at most 0.05: tapping devices let it fall by 3 to 14 mm, and "
                    "from higher the powder leaps out of its vessel");
   problems.Require(taps.count * taps.interval <= kLongest, place + ".count", taps.count,
                    "of " + base::ShortNumber(taps.interval) + " s each, must take 1000 s at most");

@@ -15,6 +15,7 @@ import tempfile
 import time
 import unittest
 
+from commented_json import read_json
 from quick_campaign import PILE, quick_spec
 
 TALUS = sys.argv[1]
@@ -443,6 +444,13 @@ class Progress(unittest.TestCase):
             done = talus("validate", str(SOURCE / "examples" / name))
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(says, done.stdout)
+        problem = self.folder / "problem.json"
+        problem.write_text('{"parameters": [{"name": "a", "low": 0, "high": 1}]}')
+        self.assertIn("is a problem for `talus optimize`", talus("validate", str(problem)).stdout)
+        scene = read_json(SOURCE / "examples/scenes/bouncing_pair.json")
+        (self.folder / "fast.json").write_text(json.dumps({**scene, "rayleigh_fraction": 0.3}))
+        done = talus("validate", str(self.folder / "fast.json"))
+        self.assertIn("warning: the time step is 0.3 of the Rayleigh time", done.stdout + done.stderr)
         plan = self.folder / "plan.json"
         plan.write_text(json.dumps({k: v for k, v in json.loads(self.spec.read_text()).items()
                                     if k in ("powder", "device", "parameters")}))

@@ -66,7 +66,7 @@ class HardLimits(unittest.TestCase):
     def test_a_search_in_which_all_failed_recommends_nothing(self):
         done = optimize("exit 3")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertIn("the first 6 evaluations have all failed, the last with exit status 3", done.stderr)
+        self.assertIn("the first 6 evaluations have all failed, the last: exit status 3", done.stderr)
 
     def test_values_that_no_search_can_work_with_are_failures(self):
         for value in ("1e308", "-1e308", "2e100"):

@@ -150,7 +150,7 @@ TEST_F(Optimize, ACommandThatNeverMakesSenseEndsItWithAReason) {
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "field"), 1);
   EXPECT_THAT(errors_, HasSubstr("no \"target\""));
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "crash"), 1);
-  EXPECT_THAT(errors_, HasSubstr("have all failed, the last with exit status 1"));
+  EXPECT_THAT(errors_, HasSubstr("have all failed, the last: exit status 1"));
 }
 
 // Every sixth evaluation prints a stray line, nothing, NaN, 1e400 or null.

@@ -28,7 +28,7 @@ std::string Verdicts(const BatchComparison& c) {
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     list += "<li><strong>" + base::MarkupText(c.batches[b]) +
             "</strong>: " + base::MarkupText(c.verdicts[b - 1].text) +
-            " (of all parameters together no difference has the credible level " +
+            " (of all parameters together a difference of zero has the credible level " +
             base::ShortNumber(c.together[b - 1].level, 2) +
             "; all that was measured together differs so by chance with probability " +
             base::ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + ")</li>\n";

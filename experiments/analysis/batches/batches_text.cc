@@ -35,7 +35,7 @@ std::string ParameterText(const BatchParameter& p, std::size_t batch) {
 }
 
 std::string TogetherText(const BatchTogether& together) {
-  return "all parameters together  no difference lies " +
+  return "all parameters together  a difference of zero lies " +
          std::string(together.is_found ? "outside" : "inside") +
          " their joint 90 % region (credible level " + ShortNumber(together.level, 3) + ")";
 }
@@ -44,14 +44,14 @@ std::string PicturesText(const BatchPictures& p) {
   if (!p.absent.empty()) return "not compared: " + p.absent;
   const bool differ = IsBeyondChance(p.probability);
   return ShortNumber(p.sad_mm2) + " mm² between the mean profiles, " +
-         (differ ? "beyond" : "within") + " the scatter of the runs (" +
-         ShortNumber(p.probability, 2) + " by chance, " + std::to_string(p.num_arrangements) +
+         (differ ? "beyond" : "within") + " the scatter of the runs (" + "probability by chance " +
+         ShortNumber(p.probability, 2) + ", " + std::to_string(p.num_arrangements) +
          " arrangements)";
 }
 
 std::string NumberText(const BatchNumber& n) {
   return n.experiment + "  " + rigs::SpokenName(n.name) + " differs by " + DifferenceText(n) +
-         ", " + ShortNumber(n.probability, 2) + " by chance";
+         ", probability by chance " + ShortNumber(n.probability, 2);
 }
 
 }  // namespace

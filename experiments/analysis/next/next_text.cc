@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/json/json_text.h"
@@ -31,6 +32,11 @@ std::string SetText(const std::vector<double>& values) {
   return "(" + base::Joined(values, ", ", [](double v) { return ShortNumber(v); }) + ")";
 }
 
+// Seen from the campaign's folder, which may be moved.
+std::filesystem::path PictureName(const NextCandidate& c) {
+  return c.picture.parent_path().filename() / c.picture.filename();
+}
+
 std::string ApartText(const NextCandidate& c) {
   std::string text =
       "         tells apart best " + SetText(c.apart[0]) + " and " + SetText(c.apart[1]);
@@ -39,7 +45,7 @@ std::string ApartText(const NextCandidate& c) {
             rigs::ShownNumber(number.metric, number.first) + " and " +
             rigs::ShownNumber(number.metric, number.second);
   }
-  if (!c.picture.empty()) text += ": " + c.picture.string();
+  if (!c.picture.empty()) text += ": " + std::filesystem::proximate(c.picture).string();
   return text + "\n";
 }
 
@@ -246,7 +252,7 @@ std::string NextJson(const NextTable& table) {
       candidate["told_apart_by"].push_back(
           {{"name", number.metric}, {"values", {number.first, number.second}}});
     }
-    if (!c.picture.empty()) candidate["picture"] = c.picture.string();
+    if (!c.picture.empty()) candidate["picture"] = PictureName(c).string();
     json["candidates"].push_back(std::move(candidate));
   }
   return base::JsonText(json, 2) + "\n";

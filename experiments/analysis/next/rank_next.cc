@@ -281,6 +281,7 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
       continue;
     }
     candidate.num_made = design.stored->num_simulations;
+    candidate.num_simulations = std::max(candidate.num_simulations, candidate.num_made);
     candidate.core_time_made = design.stored->core_time;
     const UnknownTrials unknown = UnknownsOf(view, options, design, cost, left, candidate);
     JudgeTest(ground, {.test = test, .design = *design.stored, .unknown = unknown}, candidate);

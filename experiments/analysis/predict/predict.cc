@@ -75,6 +75,9 @@ class Predictor {
     design_ = TakeDesign();
     PredictionRuns runs = NoRuns();
     campaign::Console console(root_ / "predict.log");
+    if (case_.scene_text.empty()) {
+      console.Line(case_.name + ": " + PlanText(view_, case_, stages_, CoreTime()));
+    }
     const bool done =
         campaign::RunCases({.count = runs.size(),
                             .at = [&](std::size_t run) { return FolderCaseOf(runs, run); },

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "base/text/counted.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/number_surrogate.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -63,6 +65,21 @@ std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
                     .num_seeds = wanted.num_seeds});
   if (is_free) AddFiner(view, rig_case, wanted, stages);
   return stages;
+}
+
+std::string PlanText(const campaign::JointView& view, const PredictedCase& predicted,
+                     const std::vector<PredictionStage>& stages, double core_time) {
+  int count = 0;
+  double takes = 0;
+  for (const PredictionStage& stage : stages) {
+    const int runs = stage.num_draws * stage.num_seeds;
+    count += runs;
+    takes += runs * CoreSecondsAt(view, predicted.rig_case, stage.scale_factor);
+  }
+  return base::Counted(count, "run") + ", about " + trials::DurationText(takes) + " of core time" +
+         (takes > core_time ? ", more than the " + trials::DurationText(core_time) +
+                                  " of --budget; fewer --draws or --seeds take less"
+                            : "");
 }
 
 std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages, std::size_t num_draws) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/field.h"
@@ -44,5 +45,10 @@ std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
 
 // Where there are fewer draws than the stages have, of those that there are.
 std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages, std::size_t num_draws);
+
+// "36 runs, about 2 min of core time"; with what takes less where that is more than `core_time`
+// [s].
+std::string PlanText(const campaign::JointView& view, const PredictedCase& predicted,
+                     const std::vector<PredictionStage>& stages, double core_time);
 
 }  // namespace talus::analysis

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/text/counted.h"
-
 namespace talus::analysis {
 namespace {
 
@@ -28,11 +26,12 @@ void Follower::Follow(const Move& move, FixedMove& foretold) {
   while (foretold.num_followed < kMostFollowed && IsFar(next, places, foretold)) {
     const std::vector<MovedSet> sets{{.beside = &move, .point = next, .replicates = replicates},
                                      {.move = &move, .point = next, .replicates = replicates}};
-    core_time_ += CoreTimeOf(setting_, sets);
-    if (core_time_ > options_.most_followed_core_time) {
+    const double takes = CoreTimeOf(setting_, sets);
+    if (takes > core_time_) {
       foretold.why_not_followed = "no more processor time is allowed";
       break;
     }
+    core_time_ -= takes;
     places.push_back(Simulate(move, next, sets));
     if (!informed) informed.emplace(ForetellerOf(setting_.view));
     informed->Tell(places.back().without);
@@ -64,8 +63,7 @@ bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Place>& plac
 Follower::Place Follower::Simulate(const Move& move, const Eigen::VectorXd& point,
                                    const std::vector<MovedSet>& sets) {
   if (options_.tell) {
-    options_.tell(base::Counted(2 * sets.front().replicates, "simulation") +
-                  " each at the answer foretold for " + move.name);
+    options_.tell(move.name + " moved, at the answer foretold: " + WorkText(setting_, sets));
   }
   RunMoved(setting_, sets);
   Place place{.point = point,

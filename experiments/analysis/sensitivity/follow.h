@@ -18,10 +18,10 @@ constexpr int BaseReplicates(int replicates) { return 2 * replicates; }
 
 class Follower {
  public:
-  // All outlive it.
+  // All outlive it. `core_time` is what is left of it [s], and falls by what is simulated.
   Follower(const SensitivitySetting& setting, const StatedAnswer& stated,
-           const SensitivityOptions& options)
-      : setting_(setting), stated_(stated), options_(options) {}
+           const SensitivityOptions& options, double& core_time)
+      : setting_(setting), stated_(stated), options_(options), core_time_(core_time) {}
 
   // From the answer foretold by simulations of the move at the recommended set.
   void Follow(const Move& move, FixedMove& foretold);
@@ -47,8 +47,8 @@ class Follower {
   const SensitivitySetting& setting_;
   const StatedAnswer& stated_;
   const SensitivityOptions& options_;
+  double& core_time_;
   Tally tally_{};
-  double core_time_ = 0;  // as estimated [s]
 };
 
 }  // namespace talus::analysis

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/counted.h"
 #include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/design_folder.h"
@@ -12,6 +13,7 @@
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -104,6 +106,13 @@ double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>
     seconds += set.replicates * core_time.OfOne(e, setting.scale_factor);
   });
   return seconds;
+}
+
+std::string WorkText(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
+  int count = 0;
+  ForEachExperiment(setting, sets, [&](const MovedSet& set, int) { count += set.replicates; });
+  return base::Counted(count, "simulation") + ", about " +
+         trials::DurationText(CoreTimeOf(setting, sets)) + " of core time";
 }
 
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/analysis/sensitivity/moves.h"
@@ -41,6 +42,9 @@ bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment)
 
 // Processor time of all these sets, by what the campaign's trials took [s].
 double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
+
+// How many simulations these are, and what they take: "24 simulations, about 40 s of core time".
+std::string WorkText(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
 
 // Runs what is missing of all these sets.
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);

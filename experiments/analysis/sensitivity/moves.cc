@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/json/json_reader.h"
 #include "base/nearest.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "engine/laws/material_pair.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
@@ -230,8 +231,10 @@ std::vector<Move> UsualMoves(const campaign::JointView& view,
 Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::string& name,
             const std::string& text) {
   const std::vector<std::string> known = ParameterNames();
+  if (name == kFill) throw base::ConfigError(name + ": is moved as the mass; write mass=…");
   if (std::ranges::find(known, name) == known.end()) {
-    throw base::ConfigError(name + ": is no parameter" + base::DidYouMean(name, known));
+    throw base::ConfigError(name + ": is no parameter" + base::DidYouMean(name, known) +
+                            "; there are " + base::Joined(known, ", "));
   }
   if (IsSearched(view, name)) {
     throw base::ConfigError(name + ": is searched, and its value the answer; name something fixed");

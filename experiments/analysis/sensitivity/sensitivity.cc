@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/follow.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/trials/engines/template_folder.h"
 
 namespace talus::analysis {
@@ -54,9 +54,10 @@ class Study {
                  .scale_factor = FactorOf(view, options),
                  .parts = options.parts},
         stated_(StatedAnswerOf(view.space, answer_)),
-        follower_(setting_, stated_, options_),
         moves_(MovesOf(view, options, setting_)),
-        tallies_(moves_.size()) {}
+        tallies_(moves_.size()),
+        core_time_(options.core_time - FirstCoreTime()),
+        follower_(setting_, stated_, options_, core_time_) {}
 
   SensitivityTable Run() {
     SensitivityTable table = Head();
@@ -175,8 +176,14 @@ class Study {
       names += (names.empty() ? "" : ", ") + moves_[i].name;
     }
     if (sets.size() == 1) return false;
+    if (replicates > kFirstReplicates) {
+      const double takes = CoreTimeOf(setting_, sets) / 2;  // half of them have been made
+      if (takes > core_time_) return false;
+      core_time_ -= takes;
+    }
     if (options_.tell) {
-      options_.tell(base::Counted(replicates, "simulation") + " each of " + names);
+      options_.tell(names + " moved, " + std::to_string(replicates) +
+                    " times in each experiment: " + WorkText(setting_, sets));
     }
     RunMoved(setting_, sets);
     ReadBase(sets.front());
@@ -254,16 +261,21 @@ class Study {
   optimizer::Answer answer_;
   SensitivitySetting setting_;
   StatedAnswer stated_;
-  Follower follower_;
   std::vector<Move> moves_;
   std::vector<Tally> tallies_;  // of each move at the recommended set
-  SimulatedSet base_{};         // as recommended
+  double core_time_;            // left after the first simulations [s]
+  Follower follower_;
+  SimulatedSet base_{};  // as recommended
 };
 
 }  // namespace
 
 SensitivityTable FindSensitivity(const JointView& view, const SensitivityOptions& options) {
-  return Study(view, options).Run();
+  Study study(view, options);
+  const std::filesystem::path folder = SensitivityFolder(view.folder.root);
+  std::filesystem::create_directories(folder);
+  const campaign::CampaignLock lock(folder);  // its simulations are one process's at a time
+  return study.Run();
 }
 
 double FirstCoreTime(const JointView& view, const SensitivityOptions& options) {

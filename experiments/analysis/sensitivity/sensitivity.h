@@ -24,16 +24,17 @@ struct SensitivityOptions {
   std::vector<std::pair<std::string, std::string>> moves{};  // name, value; none: the usual ones
   std::optional<double> scale_factor{};  // one of the campaign's; default: the coarsest
   int most_replicates = 16;              // of each experiment and move, >= kFirstReplicates
-  // Bounds the simulations at answers foretold; reckoned by what the campaign's trials took [s].
-  double most_followed_core_time = std::numeric_limits<double>::infinity();
+  // Of all simulations, reckoned by what the campaign's trials took [s]. The first of each move are
+  // made whatever they take; more replicates, and what is simulated at answers foretold, within it.
+  double core_time = std::numeric_limits<double>::infinity();
   campaign::CampaignParts parts{};
   std::function<void(const std::string&)> tell{};  // what goes on, a line each; may be empty
 };
 
 inline constexpr int kFirstReplicates = 4;
 
-// Throws base::Error while there are too few trials for a posterior, ConfigError where an option
-// cannot be.
+// Locks DIR/sensitivity while it simulates there. Throws base::Error while there are too few trials
+// for a posterior, ConfigError where an option cannot be, with nothing written.
 SensitivityTable FindSensitivity(const campaign::JointView& view,
                                  const SensitivityOptions& options);
 

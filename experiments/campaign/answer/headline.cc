@@ -185,6 +185,12 @@ std::optional<VerdictKind> VerdictKindOf(const Answer& all) {
   return is_curve ? VerdictKind::kCurve : VerdictKind::kRegion;
 }
 
+std::string FitText(const Answer& answer) {
+  return answer.confirmed.empty()
+             ? "By the model sets fit every measurement; no simulation has confirmed one."
+             : "Sets are found that fit every measurement.";
+}
+
 std::vector<std::string> Headline(const Answer& all, const std::vector<std::string>& all_names) {
   const auto kind = VerdictKindOf(all);
   if (!kind) return {};
@@ -192,9 +198,9 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
   const std::vector<std::string> names = OnlyThose(AskedParameters(all), all_names);
   const Told told{.answer = answer, .names = names};
   const std::string miss = MissText(answer);
-  std::vector<std::string> sentences{
-      miss.empty() ? "Sets are found that fit every measurement." : miss,
-      OpenText(told, miss.empty()), KnownText(told), PriorText(told)};
+  std::vector<std::string> sentences{miss.empty() ? FitText(answer) : miss,
+                                     OpenText(told, miss.empty()), KnownText(told),
+                                     PriorText(told)};
   // Sets that miss have no kind of fit.
   if (miss.empty()) {
     const std::string volume = Percent(answer.posterior->region_volume);

@@ -120,8 +120,9 @@ std::vector<PartialAnswer> AnswersAlone(const JointView& view) {
 std::vector<std::string> HeldOutFacts(const ResultHeldOut& h, const std::string& objective_unit) {
   std::vector<std::string> facts;
   if (std::isfinite(h.predicted)) {
-    facts.push_back("images: predicted " + base::ShortNumber(h.predicted) + " " + objective_unit +
-                    " ± " + base::ShortNumber(h.predicted_sd) + " from those of " + h.name);
+    facts.push_back("image: the predicted one differs from that of " + h.name + " by " +
+                    base::ShortNumber(h.predicted) + " ± " + base::ShortNumber(h.predicted_sd) +
+                    " " + objective_unit);
   }
   for (const PredictedNumber& n : h.numbers) {
     const auto shown = [&](double value) { return rigs::ShownNumber(n.name, value); };

@@ -80,7 +80,7 @@ class DrumRig : public RememberingRig<DrumMemory> {
     const DrumOptions& drum = c.rig.drum;
     const double froude = drum.speed * drum.speed * drum.diameter / 2 / c.gravity;
     problems.Require(froude < 1, "rig.speed", drum.speed,
-                     "rad/s is so fast that the powder turns with the drum: ω²R/g is " +
+                     "in rad/s, so fast that the powder turns with the drum: ω²R/g is " +
                          base::ShortNumber(froude) + ", must be below 1");
     if (c.rig.camera) {
       const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
@@ -102,7 +102,8 @@ class DrumRig : public RememberingRig<DrumMemory> {
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
     const double filled = FilledHeight(c, VesselOf(c));
     problems.Require(filled < most, "powder.mass", c.powder.mass,
-                     "is too much for the drum: it is filled to six tenths at most");
+                     "is too much for the drum: it is filled to six tenths at most, here some " +
+                         base::ShortNumber(1e3 * c.powder.mass * most / filled, 2) + " g");
   }
 
   static double Width(const Case& c) { return c.rig.drum.diameter; }

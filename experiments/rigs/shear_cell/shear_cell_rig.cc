@@ -61,11 +61,11 @@ void ValidateInertia(const Case& c, base::Problems& problems) {
   const std::string stress = base::ShortNumber(least);
   if (o.speed != ShearCellOptions{}.speed) {
     return problems.Require(is_slow, "rig.speed", o.speed,
-                            "m/s is so fast under " + stress +
+                            "in m/s, so fast under " + stress +
                                 " Pa that inertia adds to the friction; " + fastest + " at most");
   }
   problems.Require(is_slow, "rig.stresses[0]", least,
-                   "in Pa, is so little that inertia adds to the friction at the lid's " +
+                   "in Pa, so little that inertia adds to the friction at the lid's " +
                        base::ShortNumber(1e3 * o.speed) + " mm/s; write \"" + stress +
                        " kPa\" if they are in kPa, or give a rig.speed of " + fastest + " at most");
 }
@@ -168,18 +168,18 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
                          base::ShortNumber(4e3 * mean) + " mm: less does not reach a steady state");
     const double height = FilledHeight(c, VesselOf(c));
     problems.Require(height >= kLeastHeight * LargestDiameter(c), "powder.mass", c.powder.mass,
-                     "fills the cell " + base::ShortNumber(height / LargestDiameter(c)) +
+                     "in kg, and fills the cell " + base::ShortNumber(height / LargestDiameter(c)) +
                          " (scaled) grains high, must be seven or more; take more powder or a "
                          "smaller rig.diameter");
     problems.Require(height <= o.diameter, "powder.mass", c.powder.mass,
-                     "stands " + base::ShortNumber(height / o.diameter) +
+                     "in kg, and stands " + base::ShortNumber(height / o.diameter) +
                          " times as high as the cell is wide, must be 1 or less; take less powder "
                          "or a larger rig.diameter");
     ValidateInertia(c, problems);
     const double most = o.stresses.back();
     const double bearable = BearableStress(c);
     problems.Require(most <= bearable, "rig.stresses", most,
-                     "Pa squashes the grains: they sink " +
+                     "in Pa, and squashes the grains: they sink " +
                          base::ShortNumber(SqueezeShare(c, most)) +
                          " of their radius into each other on average, above the " +
                          base::ShortNumber(kMaxSqueeze) + " that holds; press with " +

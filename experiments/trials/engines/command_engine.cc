@@ -192,7 +192,11 @@ std::string ResultText(const rigs::Case& rig_case, const Measured& measured,
                           {"lift_velocity_m_per_s", rig_case.rig.lifted_tube.lift_velocity},
                           {"seed", rig_case.seed}};
   for (const journal::MetricRecord& scalar : measured.scalars) {
-    if (scalar.undefined.empty()) result["observables"][scalar.name] = scalar.value;
+    if (scalar.undefined.empty()) {
+      result["observables"][scalar.name] = scalar.value;
+    } else {
+      result["undefined"][scalar.name] = scalar.undefined;
+    }
   }
   if (rig_case.frame) {
     result["profile"] = base::ToJson(*rig_case.frame);

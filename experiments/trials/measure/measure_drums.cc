@@ -11,6 +11,7 @@
 #include "base/files/output_folder.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/drums/drum_overlay.h"
@@ -69,25 +70,35 @@ void WriteFiles(const MeasureRequest& request, const imaging::MeasuredDrum& drum
 
 void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std::ostream& print) {
   const imaging::DrumCircle& circle = drum.map.circle;
-  print << "drum from " << num_photos << " photograph(s)\n  circle of " << 2 * circle.radius
-        << " px around (" << circle.center_x << ", " << circle.center_y << "), "
-        << drum.pixel_size * 1e6 << " um a pixel; " << 2 * drum.map.inner_radius
+  print << "drum from " << base::Counted(static_cast<long long>(num_photos), "photograph")
+        << "\n  circle of " << base::ShortNumber(2 * circle.radius) << " px around ("
+        << base::ShortNumber(circle.center_x) << ", " << base::ShortNumber(circle.center_y) << "), "
+        << base::ShortNumber(drum.pixel_size * 1e6) << " µm a pixel; "
+        << base::ShortNumber(2 * drum.map.inner_radius)
         << " px of it count, the ring left out\n  turning " << base::NameOf(drum.turning)
         << ", powder higher on the "
         << (drum.turning == imaging::Turning::kClockwise ? "left" : "right") << '\n';
   if (drum.angle.defined()) {
-    print << "  dynamic angle " << drum.angle.value / kDrumDegree << " deg";
-    if (num_photos > 1) print << " +- " << drum.angle.standard_error / kDrumDegree;
+    print << "  dynamic angle " << base::ShortNumber(drum.angle.value / kDrumDegree) << "°";
+    if (num_photos > 1) {
+      print << " ± " << base::ShortNumber(drum.angle.standard_error / kDrumDegree, 2) << "°";
+    }
     print << '\n';
   } else {
     print << "  no dynamic angle: " << drum.angle.not_defined << '\n';
   }
   if (drum.surface.fill.defined()) {
-    print << "  fill " << drum.surface.fill.value << " of the drum\n";
+    print << "  fill " << base::ShortNumber(drum.surface.fill.value, 3) << " of the drum\n";
   } else {
     print << "  no fill: " << drum.surface.fill.not_defined << '\n';
   }
-  if (num_photos > 1) print << "  surface sd " << drum.surface_sd * 1e3 << " mm\n";
+  if (num_photos < 2) return;
+  print << "  surface sd " << base::ShortNumber(drum.surface_sd * 1e3, 3) << " mm\n";
+  constexpr double kNoMotion = 1e-9;  // [m] rounding of a mean
+  if (drum.surface_sd < kNoMotion) {
+    print
+        << "  warning: all photographs show the very same surface; are they copies of one file?\n";
+  }
 }
 
 }  // namespace

@@ -74,8 +74,10 @@ class OptimizeLoop {
     if (complete < problem_.evaluations) complete -= complete % problem_.workers;
     for (int number = 1; number <= complete; ++number) Tell(*folder_->Recorded(number));
     if (folder_->num_recorded() > 0 && !output_.quiet) {
-      std::cerr << output_.folder.string() << ": goes on after " << folder_->num_recorded()
-                << " evaluations" << std::endl;
+      const bool is_done = complete == problem_.evaluations;
+      std::cerr << output_.folder.string() << (is_done ? ": has all its " : ": goes on after ")
+                << folder_->num_recorded() << " evaluations"
+                << (is_done ? "; raise `evaluations` for more" : "") << std::endl;
     }
   }
 
@@ -121,7 +123,7 @@ class OptimizeLoop {
 
   [[noreturn]] void AllFailed() const {
     throw base::Error("the first " + std::to_string(num_told()) +
-                      " evaluations have all failed, the last with " + last_failure_);
+                      " evaluations have all failed, the last: " + last_failure_);
   }
 
   void Tell(const Evaluated& evaluated) {

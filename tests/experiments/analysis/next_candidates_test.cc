@@ -140,7 +140,7 @@ TEST_F(NextCandidates, ATestThatCouldNotBeAddedSaysWhy) {
   TestCandidate test{.name = "drum"};
   test.rig.emplace().kind = rigs::RigKind::kDrum;
   test.rig->drum.speed = 40;
-  EXPECT_THAT(WhyNot(view, test), HasSubstr("rig.speed: is 40, rad/s is so fast"));
+  EXPECT_THAT(WhyNot(view, test), HasSubstr("rig.speed: is 40, in rad/s, so fast"));
   const TestCandidate same{.name = view.record.experiments.front().name};
   EXPECT_THAT(WhyNot(view, same), HasSubstr("is that of an experiment of the campaign"));
   for (const TestCandidate& usual : UsualTests(view)) EXPECT_EQ(WhyNot(view, usual), "");

@@ -181,9 +181,9 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
 
 TEST_F(SensitivityTest, AnAnswerIsFollowedAsFarAsItsCoreTimeGoes) {
   const FixedMove move =
-      Move(FindWith(Run(), {.moves = {{"restitution", "0.6"}}, .most_followed_core_time = 0}),
-           "restitution");
+      Move(FindWith(Run(), {.moves = {{"restitution", "0.6"}}, .core_time = 0}), "restitution");
   EXPECT_EQ(move.num_followed, 0);
+  EXPECT_EQ(move.replicates, kFirstReplicates);
   EXPECT_TRUE(move.moves_still);
   EXPECT_THAT(move.why_not_followed, HasSubstr("no more processor time"));
 }

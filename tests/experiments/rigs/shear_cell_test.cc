@@ -152,7 +152,8 @@ TEST(ShearCell, WhatCannotBeShearedIsRefused) {
   EXPECT_THAT(ErrorOf(R"(, "stresses": ["1 kPa", 0])"), HasSubstr("must be positive"));
   EXPECT_THAT(ErrorOf(R"(, "stresses": ["2 kPa", "1 kPa"])"), HasSubstr("above the one before"));
   EXPECT_THAT(ErrorOf(R"(, "stresses": [1, 2, 3, 4])"), HasSubstr("must be three at most"));
-  EXPECT_THAT(ErrorOf("", "1 MPa"), HasSubstr("rig.stresses: is 4000, Pa squashes the grains"));
+  EXPECT_THAT(ErrorOf("", "1 MPa"),
+              HasSubstr("rig.stresses: is 4000, in Pa, and squashes the grains"));
   EXPECT_THAT(ErrorOf(R"(, "travel": "1 mm")"), HasSubstr("rig.travel"));
   EXPECT_THAT(ErrorOf(R"(, "speed": "2 m/s")"), HasSubstr("rig.speed"));
 }
