@@ -177,6 +177,8 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
   EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));
   EXPECT_THAT(ErrorOf(view, "restitutoin", "0.5"), HasSubstr("did you mean \"restitution\"?"));
+  EXPECT_THAT(ErrorOf(view, "wobble", "0.5"), HasSubstr("is no parameter; there are "));
+  EXPECT_THAT(ErrorOf(view, "fill", "0.3"), HasSubstr("is moved as the mass"));
 }
 
 TEST_F(SensitivityTest, AnAnswerIsFollowedAsFarAsItsCoreTimeGoes) {
