@@ -29,6 +29,7 @@
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/engines/command_case.h"
+#include "experiments/trials/optimize/evaluator.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -205,6 +206,8 @@ void ValidateScene(const base::JsonFile& file, bool) {
 
 void ValidateProblem(const base::JsonFile& file, bool) {
   const auto problem = base::LoadOptions<trials::OptimizeProblem>(file);
+  problem.space.MakeDomain();  // reads the table of candidates
+  if (problem.target) trials::TargetImage(*problem.target);
   std::cout << file.path.string() << ": is a problem for `talus optimize` in order\n"
             << "  evaluations       at most " << problem.evaluations << '\n';
 }

@@ -468,6 +468,13 @@ class Progress(unittest.TestCase):
         done = talus("validate", str(problem))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("is a problem for `talus optimize`", done.stdout)
+        for change, says in [({"parameters": [{"name": "c", "low": 0, "high": 5}]}, 'has no column "c"'),
+                             ({"candidates": "none.csv"}, "none.csv: cannot be read"),
+                             ({"target": {"profile": "none.png"}}, "none.png: cannot be read")]:
+            (self.folder / "wrong.json").write_text(json.dumps({**json.loads(problem.read_text()), **change}))
+            done = talus("validate", str(self.folder / "wrong.json"))
+            self.assertEqual((done.returncode, done.stdout), (2, ""), change)
+            self.assertIn(says, done.stderr)
         done = talus("optimize", str(problem), "--out", str(self.folder / "table"), "--",
                      "python3", "-c", "import json, sys; print(json.dumps({'value': json.load(sys.stdin)['a']}))")
         self.assertEqual(done.returncode, 0, done.stderr)

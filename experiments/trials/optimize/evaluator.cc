@@ -48,12 +48,12 @@ std::string FailureOf(const runners::ToolResult& result) {
   return end + (said.empty() ? "" : ": " + said);
 }
 
+}  // namespace
+
 AnswerImage TargetImage(const OptimizeTarget& target) {
   return target.profile.empty() ? FromRows(target.field, "target.field")
                                 : ReadAnswerImage(target.profile);
 }
-
-}  // namespace
 
 Evaluator::Evaluator(const OptimizeProblem& problem, std::vector<std::string> command)
     : problem_(problem), command_(std::move(command)) {

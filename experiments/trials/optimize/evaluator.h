@@ -20,6 +20,9 @@ struct Evaluated {
   std::string failure;  // why, when it failed
 };
 
+// Throws base::ConfigError when it cannot be used.
+AnswerImage TargetImage(const OptimizeTarget& target);
+
 class Evaluator {
  public:
   // Reads the target; throws base::ConfigError when it cannot be used. `command[0]` is looked up on
