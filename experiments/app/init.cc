@@ -181,8 +181,8 @@ void Init(InitArguments& arguments) {
   }
   if (arguments.photos.empty() && answers.tests.empty() && !AsksOnTerminal()) {
     throw base::ConfigError(
-        "PHOTOS or --test is required: there is nothing to calibrate on; `talus help init` says "
-        "more");
+        "PHOTOS or --test is required, since there is nothing to calibrate on, and with them the "
+        "powder: --mass, --density and --grain-diameter; `talus help init` says more");
   }
   if (!arguments.photos.empty()) FindPhotographs(arguments, answers);
   MeasureTable(arguments.out, answers);

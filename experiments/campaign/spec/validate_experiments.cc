@@ -166,7 +166,8 @@ void CheckHoldOut(const CampaignSpec& spec, base::Problems& problems) {
 }  // namespace
 
 void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
-  problems.Require(spec.experiment || spec.experiments, "experiment", "is missing");
+  problems.Require(spec.experiment || spec.experiments, "experiment",
+                   "is missing; without data `talus design` says which tests to make");
   problems.Require(!spec.experiment || !spec.experiments, "experiments",
                    "stands beside experiment: give one of the two");
   CheckHoldOut(spec, problems);
