@@ -171,6 +171,12 @@ std::string KindText(const Told& told, VerdictKind kind) {
   return "That is a point";
 }
 
+std::string FitText(const Answer& answer) {
+  return answer.confirmed.empty()
+             ? "By the model sets fit every measurement; no simulation has confirmed one."
+             : "Sets are found that fit every measurement.";
+}
+
 }  // namespace
 
 std::optional<VerdictKind> VerdictKindOf(const Answer& all) {
@@ -183,12 +189,6 @@ std::optional<VerdictKind> VerdictKindOf(const Answer& all) {
   const bool is_curve =
       pair && (wide(answer.parameters[pair->first]) || wide(answer.parameters[pair->second]));
   return is_curve ? VerdictKind::kCurve : VerdictKind::kRegion;
-}
-
-std::string FitText(const Answer& answer) {
-  return answer.confirmed.empty()
-             ? "By the model sets fit every measurement; no simulation has confirmed one."
-             : "Sets are found that fit every measurement.";
 }
 
 std::vector<std::string> Headline(const Answer& all, const std::vector<std::string>& all_names) {
