@@ -17,6 +17,7 @@
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/trials/simulate/run_log.h"
+#include "experiments/trials/simulate/work_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -213,11 +214,6 @@ std::vector<Design> DesignsOf(const JointView& view, const NextOptions& options,
   return designs;
 }
 
-std::string CostText(int count, double cost) {
-  return base::Counted(count, "simulation") + ", about " + trials::DurationText(cost) +
-         " of core time";
-}
-
 // Simulates the designs that the core time allows, the cheapest first; takes away what that took.
 void SimulateDesigns(const Ground& ground, const NextOptions& options, std::vector<Design>& designs,
                      double& left) {
@@ -225,7 +221,7 @@ void SimulateDesigns(const Ground& ground, const NextOptions& options, std::vect
     if (!options.simulate || !(design.cost > 0) || design.cost > left) continue;
     const TestCandidate& test = options.tests[design.candidate];
     const int made = design.stored ? design.stored->num_simulations : 0;
-    options.say(test.name + ": " + CostText(kDesignSize - made, design.cost));
+    options.say(test.name + ": " + trials::WorkText(kDesignSize - made, "simulation", design.cost));
     const double before = design.stored ? design.stored->core_time : 0;
     design.stored = SimulateDesign(ground.view, test, {.draws = ground.draws}, options.parts);
     left -= design.stored->core_time - before;
@@ -248,7 +244,7 @@ UnknownTrials UnknownsOf(const JointView& view, const NextOptions& options, cons
   const double factor = design.stored->scale_factor;
   const double needed =
       trials.num_missing * cost.OfOne(0, factor) * RelativeCost(view, test, factor);
-  const std::string text = CostText(trials.num_missing, needed);
+  const std::string text = trials::WorkText(trials.num_missing, "simulation", needed);
   if (!options.simulate || needed > left) {
     candidate.what += "; what it owes to " + NamesOf(moves) + " is judged by " + text;
     return {};

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/text/counted.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/trials/simulate/run_log.h"
+#include "experiments/trials/simulate/work_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -76,7 +76,7 @@ std::string PlanText(const campaign::JointView& view, const PredictedCase& predi
     count += runs;
     takes += runs * CoreSecondsAt(view, predicted.rig_case, stage.scale_factor);
   }
-  return base::Counted(count, "run") + ", about " + trials::DurationText(takes) + " of core time" +
+  return trials::WorkText(count, "run", takes) +
          (takes > core_time ? ", more than the " + trials::DurationText(core_time) +
                                   " of --budget; fewer --draws or --seeds take less"
                             : "");

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/counted.h"
 #include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/design_folder.h"
@@ -13,7 +12,7 @@
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
-#include "experiments/trials/simulate/run_log.h"
+#include "experiments/trials/simulate/work_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -111,8 +110,7 @@ double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>
 std::string WorkText(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
   int count = 0;
   ForEachExperiment(setting, sets, [&](const MovedSet& set, int) { count += set.replicates; });
-  return base::Counted(count, "simulation") + ", about " +
-         trials::DurationText(CoreTimeOf(setting, sets)) + " of core time";
+  return trials::WorkText(count, "simulation", CoreTimeOf(setting, sets));
 }
 
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
