@@ -49,7 +49,7 @@ analysis::PredictOptions OptionsFor(const std::string& file, const PredictArgume
   options.file = file;
   options.set = ReadSetArgument(arguments.set);
   if (!arguments.budget.empty()) {
-    options.core_time = BudgetTime(arguments.budget);
+    options.core_time = FlagQuantity("--budget", arguments.budget, base::Dimension::kTime);
   }
   return options;
 }

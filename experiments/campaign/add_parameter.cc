@@ -11,19 +11,11 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/repair.h"
+#include "experiments/campaign/spec/parameter_names.h"
 #include "experiments/campaign/start.h"
 
 namespace talus::campaign {
 namespace {
-
-std::vector<std::string> NamesOfAll() {
-  std::vector<std::string> names;
-  const ParameterRanges all;
-  ParameterRanges::Visit(all, [&]<class T>(std::string_view name, const T&, base::FieldInfo = {}) {
-    if constexpr (!std::is_same_v<T, std::optional<EarlierPosterior>>) names.emplace_back(name);
-  });
-  return names;
-}
 
 // Calls `change` with the range of this name, of whatever dimension it is.
 template <class Ranges, class Change>
@@ -80,7 +72,7 @@ AddedParameter ParseAddedParameter(const std::string& text) {
                             "\" is no range; write NAME=LOW..HIGH, such as restitution=0.3..0.95");
   }
   AddedParameter added{.name = text.substr(0, equals)};
-  const std::vector<std::string> names = NamesOfAll();
+  const std::vector<std::string> names = ParameterNames();
   if (std::ranges::count(names, added.name) == 0) {
     throw base::ConfigError("--search: \"" + added.name + "\" is no parameter" +
                             base::DidYouMean(added.name, names) + "; there are " +

@@ -44,7 +44,7 @@ std::string PicturesText(const BatchPictures& p) {
   if (!p.absent.empty()) return "not compared: " + p.absent;
   const bool differ = IsBeyondChance(p.probability);
   return ShortNumber(p.sad_mm2) + " mm² between the mean profiles, " +
-         (differ ? "beyond" : "within") + " the scatter of the runs (" + "probability by chance " +
+         (differ ? "beyond" : "within") + " the scatter of the runs (probability by chance " +
          ShortNumber(p.probability, 2) + ", " + std::to_string(p.num_arrangements) +
          " arrangements)";
 }

@@ -67,6 +67,8 @@ void CheckOptions(const PredictOptions& options) {
               "predicts by one set");
   Require(seeds >= 1 && seeds <= PredictOptions::kMostSeeds,
           "--seeds: is " + std::to_string(seeds) + ", must be from 1 to 100");
+  Require(!options.core_time || *options.core_time > 0,
+          "--budget: must be positive, such as \"2 min\"");
   CheckScaleFactors(options);
 }
 

@@ -13,6 +13,17 @@ namespace {
 constexpr double kLongRound = 20;  // [core s] of one run of each draw: coarser ones come first
 constexpr int kFewestFiner = 4;    // runs: fewer do not show what a scale factor changes
 
+int RunsIn(const PredictionStage& stage) { return stage.num_draws * stage.num_seeds; }
+
+double CoreTimeOf(const campaign::JointView& view, const rigs::Case& rig_case,
+                  const std::vector<PredictionStage>& stages) {
+  double seconds = 0;
+  for (const PredictionStage& stage : stages) {
+    seconds += RunsIn(stage) * CoreSecondsAt(view, rig_case, stage.scale_factor);
+  }
+  return seconds;
+}
+
 // The coarsest of the campaign's scale factors that the case has room for, once for each draw,
 // where the first range would be long in coming.
 void AddFirstLook(const campaign::JointView& view, const rigs::Case& rig_case, int num_draws,
@@ -30,10 +41,7 @@ void AddFirstLook(const campaign::JointView& view, const rigs::Case& rig_case, i
 // The finest scale factor of which the core time that is left holds a few runs.
 void AddFiner(const campaign::JointView& view, const rigs::Case& rig_case,
               const StagesWanted& wanted, std::vector<PredictionStage>& stages) {
-  double left = wanted.core_time;
-  for (const PredictionStage& stage : stages) {
-    left -= stage.num_draws * stage.num_seeds * CoreSecondsAt(view, rig_case, stage.scale_factor);
-  }
+  const double left = wanted.core_time - CoreTimeOf(view, rig_case, stages);
   std::vector<double> finest_first = ScaleFactorsOf(view);
   std::ranges::reverse(finest_first);
   for (const double level : finest_first) {
@@ -70,12 +78,8 @@ std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
 std::string PlanText(const campaign::JointView& view, const PredictedCase& predicted,
                      const std::vector<PredictionStage>& stages, double core_time) {
   int count = 0;
-  double takes = 0;
-  for (const PredictionStage& stage : stages) {
-    const int runs = stage.num_draws * stage.num_seeds;
-    count += runs;
-    takes += runs * CoreSecondsAt(view, predicted.rig_case, stage.scale_factor);
-  }
+  for (const PredictionStage& stage : stages) count += RunsIn(stage);
+  const double takes = CoreTimeOf(view, predicted.rig_case, stages);
   return trials::WorkText(count, "run", takes) +
          (takes > core_time ? ", more than the " + trials::DurationText(core_time) +
                                   " of --budget; fewer --draws or --seeds take less"

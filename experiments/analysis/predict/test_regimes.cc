@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/text/name.h"
+#include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/regimes.h"
 #include "experiments/campaign/run_cases.h"
 
@@ -11,13 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// That of another prediction where the same has been simulated; else `own`.
-fs::path FolderOf(const rigs::Case& rig_case, const fs::path& own, trials::TrialEngine& engine) {
+// That of another prediction in `predictions` where the same has been simulated; else `own`.
+fs::path FolderOf(const rigs::Case& rig_case, const fs::path& own, const fs::path& predictions,
+                  trials::TrialEngine& engine) {
   const auto has_it = [&](const fs::path& folder) {
     return engine.IsPrepared(rig_case, folder) && engine.IsComplete(folder);
   };
   if (has_it(own)) return own;
-  const fs::path predictions = own.parent_path().parent_path().parent_path();
   for (const fs::directory_entry& entry : fs::directory_iterator(predictions)) {
     const fs::path other = entry.path() / "tests" / own.filename();
     if (has_it(other)) return other;
@@ -30,6 +31,7 @@ fs::path FolderOf(const rigs::Case& rig_case, const fs::path& own, trials::Trial
 std::optional<std::vector<FlowRegime>> TestRegimes(const campaign::JointView& view,
                                                    const TestsToRun& tests,
                                                    const campaign::CampaignParts& parts) {
+  const fs::path predictions = PredictFolder(view.folder.root);
   std::vector<std::string> names;
   std::vector<campaign::FolderCase> runs;
   for (const auto& experiment : campaign::ExperimentsOf(view.spec)) {
@@ -41,7 +43,8 @@ std::optional<std::vector<FlowRegime>> TestRegimes(const campaign::JointView& vi
          .experiment = static_cast<int>(runs.size())},
         std::nullopt);
     const fs::path own = tests.prediction / "tests" / base::FileWord(experiment.name);
-    runs.push_back({.folder = FolderOf(rig_case, own, *parts.engine), .rig_case = rig_case});
+    runs.push_back(
+        {.folder = FolderOf(rig_case, own, predictions, *parts.engine), .rig_case = rig_case});
     names.push_back(experiment.name);
   }
   if (!campaign::RunCases({.count = runs.size(),

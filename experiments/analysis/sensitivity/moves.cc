@@ -9,6 +9,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "engine/laws/material_pair.h"
+#include "experiments/campaign/spec/parameter_names.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -183,16 +184,6 @@ void AddLaws(const rigs::Case& c, std::vector<Move>& moves) {
                         kept ? JkrSlidingSpring::kShortened : JkrSlidingSpring::kKept));
 }
 
-std::vector<std::string> ParameterNames() {
-  std::vector<std::string> names;
-  const campaign::ParameterRanges ranges;
-  const auto add = [&](std::string_view name, const auto&, base::FieldInfo) {
-    if (name != kFill) names.emplace_back(name);
-  };
-  campaign::ParameterRanges::Visit(ranges, add);
-  return names;
-}
-
 }  // namespace
 
 std::vector<Move> UsualMoves(const campaign::JointView& view, const rigs::Case& c) {
@@ -230,7 +221,8 @@ std::vector<Move> UsualMoves(const campaign::JointView& view,
 
 Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::string& name,
             const std::string& text) {
-  const std::vector<std::string> known = ParameterNames();
+  std::vector<std::string> known = campaign::ParameterNames();
+  std::erase(known, kFill);
   if (name == kFill) throw base::ConfigError(name + ": is moved as the mass; write mass=…");
   if (std::ranges::find(known, name) == known.end()) {
     throw base::ConfigError(name + ": is no parameter" + base::DidYouMean(name, known) +

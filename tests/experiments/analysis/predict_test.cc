@@ -268,6 +268,7 @@ TEST_F(PredictTest, WhatContradictsTheCampaignIsRefusedAndNothingIsWritten) {
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {2, 2}}), HasSubstr("names one twice"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factors = {2, 1}, .recommended = true}),
               HasSubstr("--scale: names several"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .core_time = 0}), HasSubstr("--budget: must be positive"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .num_draws = 1}), HasSubstr("--draws: is 1"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .set = {{"sliding_friction", "0.4"}}}),
               HasSubstr("rolling_friction: is missing"));
