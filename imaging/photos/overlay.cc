@@ -29,8 +29,7 @@ class OnPhoto {
   double sine_;
 };
 
-// The border between powder and light, in the frame's pixels: found on a doubled image, so that it
-// runs along pixel edges.
+// The border of the powder: its outermost pixels.
 std::vector<std::vector<cv::Point>> Outlines(const GrayImage& silhouette) {
   const cv::Mat gray(silhouette.height, silhouette.width, CV_8U,
                      const_cast<std::uint8_t*>(silhouette.pixels.data()));

@@ -324,7 +324,10 @@ std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& fol
   }
   std::vector<std::filesystem::path> unread;
   std::error_code none;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+  constexpr auto kReadable = std::filesystem::directory_options::skip_permission_denied;
+  std::filesystem::recursive_directory_iterator at(folder, kReadable, none);
+  for (; at != std::filesystem::recursive_directory_iterator(); at.increment(none)) {
+    const std::filesystem::directory_entry& entry = *at;
     const std::filesystem::path path = entry.path().lexically_normal();
     const bool is_hidden =
         std::ranges::any_of(path.lexically_relative(folder.lexically_normal()), IsHidden);

@@ -316,7 +316,7 @@ TEST(ExperimentOptionsTest, ATiltInRadThatIsMeantInDegreesIsRefused) {
   const std::vector<base::Problem> list = problems_of(0.5);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].path, "tilt");
-  EXPECT_THAT(list[0].message, HasSubstr("is 0.5, in rad, which is 28.65 degrees"));
+  EXPECT_THAT(list[0].Text(), HasSubstr("is 0.5, in rad, which is 28.65 degrees"));
   EXPECT_THAT(list[0].message, HasSubstr("if 0.5 degrees are meant, write \"0.5 deg\""));
 }
 

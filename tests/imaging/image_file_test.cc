@@ -123,24 +123,49 @@ TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, 300), "half.tif"), base::ConfigError);
 }
 
-// A red of 200 that lets half of what is behind it through, before white: as in any other format.
-TEST(ImageFile, TransparentTiffIsSeenBeforeWhite) {
-  const std::string file = TempFile("transparent.tif");
+// One pixel; of `samples` those beyond the colours are of the kind `extra`.
+template <class Sample>
+std::string WriteTiffPixel(std::vector<Sample> samples, std::uint16_t photometric,
+                           std::uint16_t extra) {
+  const std::string file = TempFile("pixel.tif");
   TIFF* const tiff = TIFFOpen(file.c_str(), "w");
-  ASSERT_NE(tiff, nullptr);
-  const std::uint16_t unassociated = EXTRASAMPLE_UNASSALPHA;
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 1);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1);
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 4);
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, static_cast<int>(samples.size()));
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, static_cast<int>(8 * sizeof(Sample)));
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &unassociated);
-  std::uint8_t pixel[] = {200, 0, 0, 128};
-  ASSERT_EQ(TIFFWriteScanline(tiff, pixel, 0), 1);
+  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &extra);
+  EXPECT_EQ(TIFFWriteScanline(tiff, samples.data(), 0), 1);
   TIFFClose(tiff);
+  return file;
+}
+
+// A red of 200 that lets half of what is behind it through, before white: as in any other format.
+TEST(ImageFile, TransparentTiffIsSeenBeforeWhite) {
+  const std::string file =
+      WriteTiffPixel<std::uint8_t>({200, 0, 0, 128}, PHOTOMETRIC_RGB, EXTRASAMPLE_UNASSALPHA);
   // 0.299 × 200 × 128/255 + 127; the conversion rounds to whole levels.
   EXPECT_NEAR(ReadGrayImage(file).pixels[0], 157, 1);
+}
+
+// The same red in 16 bits, the colours as they are or multiplied by alpha; what is not said to be
+// alpha was taken for it, and what is multiplied was multiplied again.
+TEST(ImageFile, SixteenBitTiffSaysWhatIsItsAlpha) {
+  const auto level = [](int red, std::uint16_t extra) {
+    const auto sample = [](int of_255) { return static_cast<std::uint16_t>(257 * of_255); };
+    return ReadGrayImage(WriteTiffPixel<std::uint16_t>({sample(red), 0, 0, sample(128)},
+                                                       PHOTOMETRIC_RGB, extra))
+        .pixels[0];
+  };
+  EXPECT_NEAR(level(200, EXTRASAMPLE_UNASSALPHA), 157, 1);
+  EXPECT_NEAR(level(100, EXTRASAMPLE_ASSOCALPHA), 157, 1);  // 200 × 128/255
+  EXPECT_NEAR(level(200, EXTRASAMPLE_UNSPECIFIED), 60, 1);  // 0.299 × 200
+  // White is 0: that is not so of alpha.
+  EXPECT_NEAR(ReadGrayImage(WriteTiffPixel<std::uint16_t>({10 * 257, 65535}, PHOTOMETRIC_MINISWHITE,
+                                                          EXTRASAMPLE_UNASSALPHA))
+                  .pixels[0],
+              245, 1);
 }
 
 // 24 bits, rows padded to four bytes, as Windows writes them: the bottom row first, or the top one

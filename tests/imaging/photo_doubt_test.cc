@@ -102,6 +102,28 @@ TEST(PhotoDoubt, ATubeAboveTheHeapIsNotItsPlate) {
   EXPECT_NEAR(Nebp(below.aehp.image), Nebp(alone.aehp.image), 0.01 * Nebp(alone.aehp.image));
 }
 
+// It was taken for the plate, as the lowest of those about as wide.
+TEST(PhotoDoubt, APedestalNearlyAsWideAsThePlateIsNotThePlate) {
+  Scene scene = SmallScene();
+  scene.pedestal = 0.92;
+  const fs::path folder = EmptyFolder("wide_pedestal");
+  WritePng(folder / Name(1, 0), Triangle(scene));
+  const Frame frame = MeasureExperiment(Options(folder)).aehp.frame;
+  EXPECT_NEAR(kPlate / frame.pixel_size, 300, 1);
+}
+
+// The pedestal, half as wide, was taken for the plate, and everything measured twice too large.
+TEST(PhotoDoubt, APlateThatThePictureCutsIsRefused) {
+  Scene scene = SmallScene();
+  scene.pedestal = 0.5;
+  for (const double center_x : {290.0, 130.0}) {
+    scene.center_x = center_x;
+    const fs::path folder = EmptyFolder("cut_plate");
+    WritePng(folder / Name(1, 0), Triangle(scene));
+    EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("cut by the picture's border"));
+  }
+}
+
 // One of six is wider: it is the one that is not as the others.
 TEST(PhotoDoubt, TheSizeIsThatOfMostPhotographs) {
   const fs::path folder = EmptyFolder("sizes");

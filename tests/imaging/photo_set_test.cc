@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "base/error.h"
 
 namespace talus::imaging {
@@ -28,6 +31,19 @@ TEST(PhotoSet, ThirtyStarsAreNotWaitedFor) {
   EXPECT_THAT(Names(SortPhotos({std::string(200, 'a') + "b"}, pattern)), IsEmpty());
   EXPECT_THAT(Names(SortPhotos({std::string(200, 'a')}, pattern)).size(), 1u);
   EXPECT_THROW(SortPhotos({"a.jpg"}, std::string(300, '*')), base::ConfigError);
+}
+
+// It ended the program. Whoever may read all, as root, sees what is in it.
+TEST(PhotoSet, AFolderThatMayNotBeReadIsPassedOver) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "sealed_photos";
+  const fs::path sealed = folder / "a";
+  fs::create_directories(sealed);
+  std::ofstream(folder / "b.png") << "x";
+  fs::permissions(sealed, fs::perms::none);
+  const std::vector<fs::path> unread = UnreadImages(folder, {});
+  fs::permissions(sealed, fs::perms::owner_all);
+  EXPECT_THAT(unread, ElementsAre(folder / "b.png"));
 }
 
 TEST(PhotoSet, RunsAndViewsAreSortedByNumber) {

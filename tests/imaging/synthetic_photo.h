@@ -19,6 +19,7 @@ struct Scene {
   int height = 480;          // [px]
   double plate_width = 300;  // [px]
   double plate_depth = 40;   // thickness [px]
+  double pedestal = 0.54;    // its width / the plate's [-]
   double center_x = 320;     // of the plate's top [px]
   double baseline = 380;     // [px]
   double tilt = 0;           // [rad], > 0 if the right end is lower
@@ -36,7 +37,8 @@ using Dark = std::function<bool(double along, double up)>;
 
 inline bool OnPlateOrPedestal(const Scene& scene, double along, double up) {
   if (up > 0) return false;
-  return std::abs(along) < (up > -scene.plate_depth ? 0.5 : 0.27) * scene.plate_width;
+  return std::abs(along) <
+         (up > -scene.plate_depth ? 0.5 : 0.5 * scene.pedestal) * scene.plate_width;
 }
 
 // Share of each pixel that is dark.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "imaging/formats/images/image_codecs.h"
@@ -79,16 +80,57 @@ RawImage EmptyImage(const TiffLayout& layout, int channels, int bits) {
   return image;
 }
 
+// What of a pixel's samples counts: the colours come first, its alpha among what follows.
+struct CountedSamples {
+  std::size_t num_colors = 1;
+  std::optional<std::size_t> alpha{};  // which sample
+  bool is_multiplied = false;          // whether the colours are, by alpha
+  bool is_inverted = false;            // whether 0 is white
+
+  int channels() const { return static_cast<int>(num_colors) + (alpha ? 1 : 0); }
+};
+
+// A sample of which the file does not say that it is alpha may be anything.
+CountedSamples SamplesOf(TIFF* tiff, const TiffLayout& layout) {
+  CountedSamples samples;
+  if (layout.photometric == PHOTOMETRIC_RGB && layout.channels >= 3) samples.num_colors = 3;
+  samples.is_inverted = layout.photometric == PHOTOMETRIC_MINISWHITE;
+  std::uint16_t num_extra = 0;
+  const std::uint16_t* kinds = nullptr;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_EXTRASAMPLES, &num_extra, &kinds);
+  for (std::size_t i = 0; i < num_extra && samples.num_colors + i < layout.channels; ++i) {
+    if (kinds[i] != EXTRASAMPLE_ASSOCALPHA && kinds[i] != EXTRASAMPLE_UNASSALPHA) continue;
+    samples.alpha = samples.num_colors + i;
+    samples.is_multiplied = kinds[i] == EXTRASAMPLE_ASSOCALPHA;
+    break;
+  }
+  return samples;
+}
+
+// From a pixel as it is stored to one as RawImage has it.
+void TakePixel(const CountedSamples& samples, const std::uint16_t* from, std::uint16_t* to) {
+  constexpr std::uint32_t kFull = 65535;
+  const std::uint32_t alpha = samples.alpha ? from[*samples.alpha] : kFull;
+  for (std::size_t c = 0; c < samples.num_colors; ++c) {
+    std::uint32_t level = from[c];
+    if (samples.is_multiplied && alpha > 0) level = std::min(kFull, level * kFull / alpha);
+    to[c] = static_cast<std::uint16_t>(samples.is_inverted ? kFull - level : level);
+  }
+  if (samples.alpha) to[samples.num_colors] = static_cast<std::uint16_t>(alpha);
+}
+
 // 16-bit rows in strips, which libtiff's ready-made conversion would cut to 8 bits.
 RawImage ReadDeep(TIFF* tiff, const TiffLayout& layout, const std::string& name, double white) {
-  RawImage image = EmptyImage(layout, layout.channels, 16);
+  const CountedSamples samples = SamplesOf(tiff, layout);
+  RawImage image = EmptyImage(layout, samples.channels(), 16);
   image.white = white;
-  const bool inverted = layout.photometric == PHOTOMETRIC_MINISWHITE;
-  std::vector<std::uint16_t> row(static_cast<std::size_t>(layout.width) * layout.channels);
+  const auto num_counted = static_cast<std::size_t>(samples.channels());
+  std::vector<std::uint16_t> stored(static_cast<std::size_t>(layout.width) * layout.channels);
+  std::vector<std::uint16_t> row(layout.width * num_counted);
   for (std::uint32_t y = 0; y < layout.height; ++y) {
-    if (TIFFReadScanline(tiff, row.data(), y) != 1) ThrowDamaged(name, "row cannot be decoded");
-    if (inverted) {
-      for (std::uint16_t& sample : row) sample = static_cast<std::uint16_t>(65535 - sample);
+    if (TIFFReadScanline(tiff, stored.data(), y) != 1) ThrowDamaged(name, "row cannot be decoded");
+    for (std::size_t x = 0; x < layout.width; ++x) {
+      TakePixel(samples, &stored[x * layout.channels], &row[x * num_counted]);
     }
     image.AddRow(row);
   }

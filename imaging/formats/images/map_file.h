@@ -8,9 +8,9 @@
 
 namespace talus::imaging {
 
-// Without a frame the base is found: the lowest row with powder stands on it, and the powder of
-// every view in that row spans the plate. Throws ConfigError that names the file and the remedy
-// when the map is empty, black everywhere, or has no such base.
+// Without a frame the base is found: the lowest row with powder stands on it, and what is powder
+// in at least 80 % of the views in that row spans the plate. Throws ConfigError that names the file
+// and the remedy when the map is empty, black everywhere, or has no such base.
 Profile ReadMap(const std::filesystem::path& path, double plate_diameter,
                 const std::optional<Frame>& frame);
 

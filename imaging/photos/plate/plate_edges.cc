@@ -193,6 +193,13 @@ std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& mid
 }
 
 const PlateSides& RequirePlate(const std::optional<PlateSides>& sides, const std::string& name) {
+  if (sides && sides->is_cut) {
+    throw base::ConfigError(
+        name +
+        ": the plate is cut by the picture's border, and only its pedestal has both sides; move "
+        "the camera so that the whole plate is in the picture, give its place with \"frame\", or "
+        "leave the photograph out");
+  }
   if (sides) return *sides;
   throw base::ConfigError(
       name +

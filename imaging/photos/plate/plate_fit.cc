@@ -132,7 +132,7 @@ class Fit {
         new ceres::CauchyLoss(kOutlier), pose, plate_.data());
   }
 
-  // Where some photograph shows a sharp corner, the others' guesses only tell where to start.
+  // Where some photograph shows a sharp corner, the others' guesses count little.
   void AddCorner(const PlateCorner& corner, double* pose) {
     const double weight = corner.sharp ? kCornerWeight : kVagueWeight;
     problem_.AddResidualBlock(

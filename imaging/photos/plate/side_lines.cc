@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "imaging/one_thread.h"
 
@@ -14,7 +15,8 @@ constexpr double kLargestRms = 0.35;    // of a side to its line [px]
 constexpr double kLargestStep = 1.0;    // of the next row to the line so far [px]
 constexpr double kLargestSlope = 0.14;  // 8°
 constexpr double kSlopeNoise = 0.4;     // px over the length: how unlike the two slopes may be
-constexpr double kAsWide = 0.9;         // of the widest: still a candidate for the plate
+constexpr double kAsWide = 0.95;        // of the widest: powder may hang over the rim by the rest
+constexpr double kNarrower = 0.9;       // of the plate: where its own outline has ended
 constexpr double kLeastThick = 0.015;   // rows with straight sides / width
 constexpr double kOffLine = 0.75;       // where a side has left its line [px]
 
@@ -139,20 +141,40 @@ class Grower {
   LineFit right_;
 };
 
-std::vector<std::optional<SideEnds>> FindSides(const BacklitPhoto& photo) {
+// The columns of a row that reaches the left or right border [px].
+struct CutRow {
+  int first = 0;
+  int last = -1;
+
+  double width() const { return last + 1 - first; }
+};
+
+struct Rows {
+  std::vector<std::optional<SideEnds>> sides;
+  std::vector<CutRow> cut;  // empty where there are sides
+};
+
+Rows FindRows(const BacklitPhoto& photo) {
   const cv::Mat area = LargestArea(photo);
-  std::vector<std::optional<SideEnds>> sides(static_cast<std::size_t>(area.rows));
+  const auto num_rows = static_cast<std::size_t>(area.rows);
+  Rows rows{.sides = std::vector<std::optional<SideEnds>>(num_rows),
+            .cut = std::vector<CutRow>(num_rows)};
   for (int y = 0; y < area.rows; ++y) {
     const auto* const begin = area.ptr<std::uint8_t>(y);
     const auto* const end = begin + area.cols;
     const int first = static_cast<int>(std::find(begin, end, 255) - begin);
-    if (first == 0 || first == area.cols || begin[area.cols - 1] != 0) continue;
+    if (first == area.cols) continue;
     int last = area.cols - 1;
     while (begin[last] == 0) --last;
-    sides[static_cast<std::size_t>(y)] = SideEnds{.left = Crossing(photo, y, first, first - 1),
-                                                  .right = Crossing(photo, y, last, last + 1)};
+    const auto row = static_cast<std::size_t>(y);
+    if (first == 0 || last == area.cols - 1) {
+      rows.cut[row] = {.first = first, .last = last};
+    } else {
+      rows.sides[row] = SideEnds{.left = Crossing(photo, y, first, first - 1),
+                                 .right = Crossing(photo, y, last, last + 1)};
+    }
   }
-  return sides;
+  return rows;
 }
 
 // The longest runs of rows with straight parallel sides, from the top.
@@ -178,6 +200,22 @@ std::optional<StraightSides> ChoosePlate(const std::vector<StraightSides>& strai
   return plate;
 }
 
+// Whether the sides are those of a pedestal, whose plate above is wider to both sides and reaches
+// the image's left or right border. What is parted from them by a narrower outline, as the heap's,
+// is no plate, an arm that holds a tube, say; nor is what reaches out to one side, as a thread.
+bool CarriesCutPlate(const Rows& rows, const StraightSides& plate) {
+  int num_cut = 0;
+  for (int y = plate.first - 1; y >= 0; --y) {
+    const auto row = static_cast<std::size_t>(y);
+    const std::optional<SideEnds>& ends = rows.sides[row];
+    const CutRow& cut = rows.cut[row];
+    const double width = ends ? ends->right - ends->left : cut.width();
+    if (width < kNarrower * plate.width()) break;
+    if (!ends && cut.first < plate.LeftAt(y) && cut.last > plate.RightAt(y)) ++num_cut;
+  }
+  return num_cut >= kLeastThick * plate.width();
+}
+
 // The row above which a side has left its line for good.
 template <class Line>
 double EndOfSide(const PlateSides& sides, double SideEnds::*end, Line line) {
@@ -193,10 +231,11 @@ double EndOfSide(const PlateSides& sides, double SideEnds::*end, Line line) {
 }  // namespace
 
 std::optional<PlateSides> FindPlateSides(const BacklitPhoto& photo) {
-  PlateSides sides{.ends = FindSides(photo), .straight = {}};
-  const std::optional<StraightSides> plate = ChoosePlate(FindStraightSides(sides.ends));
+  Rows rows = FindRows(photo);
+  const std::optional<StraightSides> plate = ChoosePlate(FindStraightSides(rows.sides));
   if (!plate) return std::nullopt;
-  sides.straight = *plate;
+  const bool is_cut = CarriesCutPlate(rows, *plate);
+  PlateSides sides{.ends = std::move(rows.sides), .straight = *plate, .is_cut = is_cut};
   sides.left_top = EndOfSide(sides, &SideEnds::left, [&](int row) { return plate->LeftAt(row); });
   sides.right_top =
       EndOfSide(sides, &SideEnds::right, [&](int row) { return plate->RightAt(row); });

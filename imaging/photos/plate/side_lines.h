@@ -33,6 +33,7 @@ struct StraightSides {
 struct PlateSides {
   std::vector<std::optional<SideEnds>> ends;  // in every row of the photograph
   StraightSides straight;
+  bool is_cut = false;   // the pedestal's: the plate above reaches the image's left or right border
   double left_top = 0;   // where the sides leave their lines for good, seen from the plate upwards
   double right_top = 0;  // [px] from the top edge of the image
 };
