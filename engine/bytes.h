@@ -15,27 +15,34 @@ namespace talus::engine {
 template <class T>
 concept Plain = std::is_trivially_copyable_v<T>;
 
+// Appends to a text; without one it only counts, so that the text can have its room at once.
 class ByteWriter {
  public:
+  explicit ByteWriter(std::string* bytes) : bytes_(bytes) {}
+
   template <Plain T>
   void operator()(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    Append(&value, sizeof(T));
   }
   template <Plain T, class A>
   void operator()(const std::vector<T, A>& list) {
     (*this)(static_cast<std::uint64_t>(list.size()));
-    if (!list.empty()) {
-      bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
-    }
+    Append(list.data(), list.size() * sizeof(T));
   }
   void operator()(const std::string& text) {
     (*this)(static_cast<std::uint64_t>(text.size()));
-    bytes_ += text;
+    Append(text.data(), text.size());
   }
-  const std::string& bytes() const { return bytes_; }
+  std::size_t count() const { return count_; }  // of bytes so far
 
  private:
-  std::string bytes_;
+  void Append(const void* from, std::size_t size) {
+    count_ += size;
+    if (bytes_ != nullptr && size > 0) bytes_->append(static_cast<const char*>(from), size);
+  }
+
+  std::string* bytes_;
+  std::size_t count_ = 0;
 };
 
 class ByteReader {

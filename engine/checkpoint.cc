@@ -180,14 +180,20 @@ Head ReadHead(std::string_view bytes) {
 
 std::string Simulation::Checkpoint() const {
   state_->RequireUsable();
-  ByteWriter state;
-  VisitState(state, *state_);
+  ByteWriter counter(nullptr);
+  VisitState(counter, *state_);
   Head head;
-  head.size = state.bytes().size();
-  head.checksum = base::Checksum(state.bytes());
-  ByteWriter whole;
-  whole(head);
-  return whole.bytes() + state.bytes();
+  head.size = counter.count();
+  // A bed's state takes gigabytes: it is written once, where it stays.
+  constexpr std::size_t kRoomForPack = std::size_t{1} << 16;
+  std::string bytes;
+  bytes.reserve(sizeof(Head) + head.size + kRoomForPack);
+  bytes.resize(sizeof(Head));
+  ByteWriter writer(&bytes);
+  VisitState(writer, *state_);
+  head.checksum = base::Checksum(std::string_view(bytes).substr(sizeof(Head)));
+  std::memcpy(bytes.data(), &head, sizeof(Head));
+  return bytes;
 }
 
 Simulation Simulation::Restore(std::string_view bytes, int num_threads) {

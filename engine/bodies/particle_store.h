@@ -1,5 +1,5 @@
 // The particles as the kernels see them (engine/kernel/kernel.h), with what the kernels need not
-// know. All arrays are padded with empty rows to a whole block.
+// know. All arrays but ids and materials are padded with empty rows to a whole block.
 #pragma once
 
 #include <cstdint>

@@ -155,8 +155,8 @@ struct KernelTable {
   void (*search)(const CloudView&, const SearchQuery&, SearchLists&);
   Displacements (*displacements)(const CloudView&, const double* motion, std::int64_t begin,
                                  std::int64_t end);
-  // Distance of each sphere's surface from the wall [m], to distance[0 … end − begin), rounded up
-  // to a whole block.
+  // Distance of each sphere's surface from the wall [m], to gap[0 … end − begin), rounded up to a
+  // whole block.
   void (*wall_gaps)(const StepView&, std::int64_t wall, std::int64_t begin, std::int64_t end,
                     double* gap);
 };

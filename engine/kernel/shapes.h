@@ -25,7 +25,7 @@ TALUS_INLINE Vector<V> Broadcast(const double (&a)[3]) {
   return {V(a[0]), V(a[1]), V(a[2])};
 }
 
-// Unit vector and length of the way to the wall. In place of 0/0 it is the axis.
+// Unit vector and length of the way to the wall. In place of 0/0 it is against the axis.
 template <class V>
 TALUS_INLINE NearestPoint<V> FromOffset(const Vector<V>& offset, const Vector<V>& axis) {
   const V square = Dot(offset, offset);

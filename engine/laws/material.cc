@@ -24,6 +24,16 @@ void ContactModels::Validate(base::Problems& problems) const {
                    "full_mobilisation_damping", full_mobilisation_damping, "must be in [0, 1]");
   problems.Require(adhesion_cutoff > 0 && adhesion_cutoff < 1, "adhesion_cutoff", adhesion_cutoff,
                    "must be in (0, 1)");
+  const ContactModels usual;
+  problems.Require(adhesion == Adhesion::kJkr || jkr_rolling_limit == usual.jkr_rolling_limit,
+                   "jkr_rolling_limit", "has no effect: adhesion is not jkr");
+  problems.Require(adhesion == Adhesion::kJkr || jkr_sliding_spring == usual.jkr_sliding_spring,
+                   "jkr_sliding_spring", "has no effect: adhesion is not jkr");
+  problems.Require(adhesion == Adhesion::kDmt || adhesion_cutoff == usual.adhesion_cutoff,
+                   "adhesion_cutoff", adhesion_cutoff, "has no effect: adhesion is not dmt");
+  problems.Require(rolling == Rolling::kEpsd || full_mobilisation_damping == 0,
+                   "full_mobilisation_damping", full_mobilisation_damping,
+                   "has no effect: rolling is not epsd");
   if (coulomb_limit == CoulombLimit::kElasticForce && adhesion != Adhesion::kNone) {
     problems.Add("coulomb_limit",
                  "elastic_force is a law without adhesion: set adhesion to none, or "

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -15,13 +16,18 @@ constexpr std::string_view kMagic = "talus run 1\n";
 }  // namespace
 
 // Magic; checksum of the rest; input hash, times and state, each on a line; the engine's bytes.
-std::string Pack(const RunCheckpoint& checkpoint) {
+std::string Pack(RunCheckpoint checkpoint) {
   std::ostringstream times;
   times.precision(17);
   times << checkpoint.timing.wall_time << ' ' << checkpoint.timing.cpu_time;
-  const std::string rest = base::Hex(checkpoint.input_hash) + "\n" + times.str() + "\n" +
-                           checkpoint.state + "\n" + checkpoint.simulation;
-  return std::string(kMagic) + base::Hex(base::Checksum(rest)) + "\n" + rest;
+  const std::string no_checksum = base::Hex(0);
+  const std::size_t header = kMagic.size() + no_checksum.size() + 1;
+  std::string bytes = std::move(checkpoint.simulation);
+  bytes.insert(0, std::string(kMagic) + no_checksum + "\n" + base::Hex(checkpoint.input_hash) +
+                      "\n" + times.str() + "\n" + checkpoint.state + "\n");
+  const std::uint64_t checksum = base::Checksum(std::string_view(bytes).substr(header));
+  bytes.replace(kMagic.size(), no_checksum.size(), base::Hex(checksum));
+  return bytes;
 }
 
 RunCheckpoint Unpack(const std::string& bytes) {

@@ -48,6 +48,9 @@ inline std::int64_t SliceSteps(std::int64_t num_particles) {
   return 1 + kParticleSteps / (num_particles + 100);
 }
 
+// What is read of one at most [bytes]: a full-scale bed's takes gigabytes.
+inline constexpr std::uint64_t kLargestCheckpoint = std::uint64_t{1} << 40;
+
 // A checkpoint of a run: what it is a run of, its own state as text, and the engine's.
 struct RunCheckpoint {
   std::uint64_t input_hash = 0;  // of the complete input
@@ -55,7 +58,7 @@ struct RunCheckpoint {
   std::string state;       // one line
   std::string simulation;  // engine::Simulation::Checkpoint
 };
-std::string Pack(const RunCheckpoint& checkpoint);
+std::string Pack(RunCheckpoint checkpoint);  // in the memory of `simulation`, where that has room
 
 // Throws base::Error for a truncated, damaged or foreign text.
 RunCheckpoint Unpack(const std::string& bytes);

@@ -95,7 +95,8 @@ void Series::Write(const Simulation& simulation, SeriesState& state) const {
   // An interval far below the step has too many rows to count them one by one.
   const double due = std::min(simulation.time() / *outputs_.interval, 1e15);
   state.num_rows = std::max(state.num_rows + 1, static_cast<std::int64_t>(due));
-  if (due < 1e15 && NextTime(state) <= simulation.time()) ++state.num_rows;
+  // The quotient may round down by one.
+  while (due < 1e15 && NextTime(state) <= simulation.time()) ++state.num_rows;
 }
 
 }  // namespace talus::engine

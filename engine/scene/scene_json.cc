@@ -28,16 +28,19 @@ std::string PathInFile(const std::string& path, std::size_t num_spheres) {
   return in_file;
 }
 
-std::string MessageInFile(const base::Problem& problem, std::size_t num_spheres) {
-  std::string message = problem.message;
+base::Problem InFile(base::Problem problem, std::size_t num_spheres) {
+  std::string& message = problem.message;
   if (const auto at = message.find(kParticles); at != std::string::npos) {
     const auto end = message.find(']', at);
     const auto first = at + kParticles.size();
     message.replace(at, end + 1 - at,
                     SphereInFile(message.substr(first, end - first), num_spheres));
   }
-  if (PathInFile(problem.path, num_spheres) != "fills") return message;
-  return "a sphere " + message + " (is the fill's region inside the walls and free of spheres?)";
+  problem.path = PathInFile(problem.path, num_spheres);
+  if (problem.path != "fills") return problem;
+  return {.path = problem.path,
+          .message = "a sphere " + problem.Text() +
+                     " (is the fill's region inside the walls and free of spheres?)"};
 }
 
 }  // namespace
@@ -75,9 +78,7 @@ LoadedScene LoadScene(base::JsonFile file) {
   loaded.scene.Validate(found);
   constexpr std::size_t kMost = 50;  // overlapping spheres may be many
   for (std::size_t i = 0; i < std::min(kMost, found.list().size()); ++i) {
-    const base::Problem& problem = found.list()[i];
-    problems.Add(PathInFile(problem.path, loaded.spec.spheres.size()),
-                 MessageInFile(problem, loaded.spec.spheres.size()));
+    problems.Add(InFile(found.list()[i], loaded.spec.spheres.size()));
   }
   if (found.size() > kMost) {
     problems.Add("", std::to_string(found.size() - kMost) + " more problems like these");

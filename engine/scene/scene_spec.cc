@@ -52,6 +52,17 @@ void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
   problems.Require(bad_mass.empty(), "mass", bad_mass);
 }
 
+// The remedy where the grains still overlap.
+void AddUnfilled(const FillSpec& fill, base::Problems& problems) {
+  if (fill.region.height) {
+    problems.Add("region", "is too small for the mass; enlarge it or leave its height out");
+  } else {
+    problems.Add("solid_fraction",
+                 std::string("was not reached without overlaps; give a lower one") +
+                     (fill.solid_fraction > FillSpec().solid_fraction ? ", such as 0.55" : ""));
+  }
+}
+
 void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
   const FillSpec& fill = spec.fills[index];
   const int material = MaterialIndex(spec, fill.material);
@@ -70,9 +81,8 @@ void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
       .region = fill.region, .solid_fraction = fill.solid_fraction, .seed = seed};
   const Filling filling = Fill(radii, request);
   if (filling.max_overlap > request.max_overlap) {
-    throw base::ConfigError(
-        "fills[" + std::to_string(index) +
-        "].region: is too small for the mass; enlarge it or leave its height out");
+    problems.Within("fills[" + std::to_string(index) + "]", [&] { AddUnfilled(fill, problems); });
+    problems.ThrowIfAny();
   }
   const auto is_outside = [&](const Vec3& p) { return spec.domain && !spec.domain->Contains(p); };
   if (std::ranges::any_of(filling.positions, is_outside)) {
@@ -87,17 +97,6 @@ void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
                                .velocity = {},
                                .angular_velocity = {}});
   }
-}
-
-// Smallest Rayleigh time of what is poured [s].
-double PouredRayleighTime(const SceneSpec& spec) {
-  double smallest = INFINITY;
-  for (const PourSpec& pour : spec.pours) {
-    const auto material = static_cast<std::size_t>(MaterialIndex(spec, pour.material));
-    const double radius = SizeCurve(pour.sizes).smallest() / 2;
-    smallest = std::min(smallest, RayleighTime(spec.materials[material].material, radius));
-  }
-  return smallest;
 }
 
 void RequireMouths(const SceneSpec& spec) {
@@ -185,6 +184,16 @@ int MaterialIndex(const SceneSpec& spec, const std::string& name) {
     if (spec.materials[i].name == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+double PouredRayleighTime(const SceneSpec& spec) {
+  double smallest = INFINITY;
+  for (const PourSpec& pour : spec.pours) {
+    const auto material = static_cast<std::size_t>(MaterialIndex(spec, pour.material));
+    const double radius = SizeCurve(pour.sizes).smallest() / 2;
+    smallest = std::min(smallest, RayleighTime(spec.materials[material].material, radius));
+  }
+  return smallest;
 }
 
 void SphereSpec::Validate(base::Problems& problems) const {

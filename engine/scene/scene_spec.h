@@ -87,8 +87,7 @@ struct StopSpec {
     visit("steps", self.steps, {.doc = "> 0"});
     visit("energy_fraction", self.energy_fraction,
           {.doc = "at rest: mean kinetic energy of a sphere over m g d stays below, after the last "
-                  "pour, "
-                  "prescribed motion and removal; > 0"});
+                  "pour, prescribed motion, turn of gravity and removal; > 0"});
     visit("hold_time", self.hold_time,
           {.dimension = base::Dimension::kTime, .doc = "for this long, > 0"});
   }
@@ -208,7 +207,7 @@ struct SceneSpec {
                   "(0, 0.4]; default: 0.15"});
     visit("stop", self.stop, {.required = true, .doc = "the first that is met ends the run"});
     visit("outputs", self.outputs);
-    visit("seed", self.seed, {.doc = "of the fills"});
+    visit("seed", self.seed, {.doc = "of the fills and pours"});
     visit("threads", self.threads, {.doc = "the result does not depend on it, > 0"});
     visit("checkpoint_interval", self.checkpoint_interval,
           {.dimension = Dimension::kTime,
@@ -219,6 +218,9 @@ struct SceneSpec {
 
 // Index of the material called `name`, or the first for no name; -1 if there is none.
 int MaterialIndex(const SceneSpec& spec, const std::string& name);
+
+// The shortest Rayleigh time of the spheres that are poured [s], infinite without any.
+double PouredRayleighTime(const SceneSpec& spec);
 
 // Puts the spheres of `sphere_files` in their place, so that the spec is complete without them.
 void ReadSphereFiles(SceneSpec& spec);

@@ -46,7 +46,7 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
     AddLostSizes(spec, spec.pours[i], "pours[" + std::to_string(i) + "]", warnings);
   }
   const double dt = TimeStep(scene);
-  const double share = dt / SmallestRayleighTime(scene);
+  const double share = dt / std::min(SmallestRayleighTime(scene), PouredRayleighTime(spec));
   if (share > kWarnRayleighFraction * (1 + 1e-9)) {
     std::ostringstream text;
     text.precision(3);

@@ -28,8 +28,8 @@ struct TableRow {
 };
 
 struct Table {
-  std::string head;  // all lines above the numbers, in lower case
-  Row titles;        // of the columns, in lower case; units of a line below appended
+  std::string title_line;  // the last line of titles, in lower case
+  Row titles;              // of the columns, in lower case; units of a line below appended
   std::vector<TableRow> rows;
 };
 
@@ -37,7 +37,8 @@ struct Table {
   throw base::ConfigError(path.string() + ": " + why);
 }
 
-// Lower case, and the micro signs of Latin-1 and Unicode as u.
+// Lower case, and the micro signs of Latin-1 and Unicode as u. Q3 is not q3: the one is cumulative,
+// the other a density.
 std::string Plain(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -48,6 +49,8 @@ std::string Plain(std::string_view text) {
       ++i;
     } else if (byte == 0xB5) {
       plain += 'u';
+    } else if (byte == 'Q' && std::isdigit(next)) {
+      plain += 'Q';
     } else {
       plain += static_cast<char>(std::tolower(byte));
     }
@@ -115,6 +118,12 @@ bool GoesOn(const std::vector<TableRow>& rows, const std::vector<double>& number
          (rows.size() < 2 || (numbers[0] - last) * (last - first) > 0);
 }
 
+std::size_t MostFields(const std::vector<Row>& rows) {
+  std::size_t most = 0;
+  for (const Row& row : rows) most = std::max(most, row.size());
+  return most;
+}
+
 // The first block of lines that hold two numbers or more, and the line of titles above it. Blank
 // lines part nothing. A line that begins with a number and has no second one may be the last, as an
 // edge without a class.
@@ -125,7 +134,7 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
   const std::string plain = Plain(base::WithoutByteOrderMark(text));
   const char separator = SeparatorOf(plain);
   Table table;
-  std::vector<Row> above;
+  std::vector<Row> above;  // the last two lines of several fields above the numbers: the titles
   int line_number = 0;
   std::optional<int> broken;
   bool is_apart = false;  // a blank line has been there
@@ -143,6 +152,14 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
     const auto num_valid =
         std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
     if (num_valid >= 2 && std::isfinite(numbers[0])) {
+      // A decimal comma between columns that commas part makes two fields of one.
+      if (separator == ',' && !above.empty() && fields.size() > MostFields(above)) {
+        Refuse(path, "line " + std::to_string(line_number) + ": has " +
+                         std::to_string(fields.size()) + " fields below " +
+                         std::to_string(MostFields(above)) +
+                         " titles; decimal commas are likely: part the columns with semicolons or "
+                         "tabs, or write decimal points; else give every column a title");
+      }
       if (std::exchange(is_apart, false) && !GoesOn(table.rows, numbers)) {
         Refuse(path, "line " + std::to_string(line_number) +
                          ": a second table begins without a title; remove it");
@@ -159,18 +176,18 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
       if (!broken) broken = line_number;
     } else if (!table.rows.empty()) {
       break;
-    } else {
-      table.head += line + '\n';
-      if (fields.size() >= 2) above.push_back(fields);
+    } else if (fields.size() >= 2) {
+      table.title_line = line;
+      if (above.size() == 2) above.erase(above.begin());
+      above.push_back(fields);
     }
   }
   if (table.rows.size() < 2) Refuse(path, "has no table of diameters and shares");
   const std::size_t num_columns = table.rows.front().numbers.size();
   table.titles.resize(num_columns);
-  const std::size_t first = above.size() > 2 ? above.size() - 2 : 0;
-  for (std::size_t i = first; i < above.size(); ++i) {
-    for (std::size_t c = 0; c < std::min(num_columns, above[i].size()); ++c) {
-      table.titles[c] += above[i][c] + ' ';
+  for (const Row& row : above) {
+    for (std::size_t c = 0; c < std::min(num_columns, row.size()); ++c) {
+      table.titles[c] += row[c] + ' ';
     }
   }
   return table;
@@ -181,25 +198,74 @@ bool HasAny(const std::string& text, std::initializer_list<const char*> words) {
                      [&](const char* word) { return text.find(word) != std::string::npos; });
 }
 
-double UnitOf(const std::filesystem::path& path, const std::string& title,
-              const std::string& head) {
-  for (const std::string& text : {title, head}) {
-    for (const char* unit : {"um", "nm", "mm", "micron"}) {
-      const auto at = text.find(unit);
-      const auto bounded = [&](std::size_t i) {
-        return i >= text.size() || !std::isalpha(static_cast<unsigned char>(text[i]));
-      };
-      const std::string name = std::string(unit) == "micron" ? "um" : unit;
-      const bool whole = at != std::string::npos && (at == 0 || bounded(at - 1));
-      if (whole && (name != unit || bounded(at + 2))) {
-        return base::ParseQuantity("1 " + name, base::Dimension::kLength);
-      }
+bool IsLetter(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return std::isalpha(byte) || byte >= 0x80;  // what follows the first byte of a Greek letter, too
+}
+
+// Whether one of the words begins where no other word goes on: "less", but not "dimensionless".
+bool BeginsWithAny(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) {
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      if (at == 0 || !IsLetter(text[at - 1])) return true;
     }
-    if (HasAny(text, {"(m)", "[m]", "/m "})) return 1;
+    return false;
+  });
+}
+
+// Whether the word stands alone somewhere: "size", but not "undersize".
+bool HasWord(const std::string& text, const std::string& word) {
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !IsLetter(text[at - 1])) && (end == text.size() || !IsLetter(text[end]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// [m]
+std::optional<double> UnitIn(const std::string& text) {
+  for (const char* unit : {"um", "nm", "mm"}) {
+    if (HasWord(text, unit)) {
+      return base::ParseQuantity(std::string("1 ") + unit, base::Dimension::kLength);
+    }
+  }
+  if (BeginsWithAny(text, {"micron"})) return 1e-6;
+  if (HasAny(text, {"(m)", "[m]", "/m "})) return 1;
+  return std::nullopt;
+}
+
+double UnitOf(const std::filesystem::path& path, const std::string& title,
+              const std::string& title_line) {
+  for (const std::string& text : {title, title_line}) {
+    if (const std::optional<double> unit = UnitIn(text)) return *unit;
   }
   Refuse(path,
          "does not say in which unit the diameters are; write it into the head of their "
          "column, such as \"diameter (um)\"");
+}
+
+bool IsOfCoarser(const std::string& title) {
+  return HasAny(title, {"over", ">", "retained", "coarser"});
+}
+bool IsOfFiner(const std::string& title) {
+  return !IsOfCoarser(title) &&
+         (HasAny(title, {"under", "cum", "passing", "finer", "<", "sum", "durchgang"}) ||
+          BeginsWithAny(title, {"Q3", "Q0", "below", "less"}));
+}
+// Per length, or per decade: no share of a class.
+bool IsDensity(const std::string& title) {
+  return BeginsWithAny(title, {"q3", "q0"}) && title.find('%') == std::string::npos;
+}
+bool IsOfDiameters(const std::string& title) {
+  const bool is_share = IsOfCoarser(title) ||
+                        HasAny(title, {"%", "under", "passing", "finer", "durchgang"}) ||
+                        BeginsWithAny(title, {"percent", "share", "cum", "Q3", "Q0", "q3", "q0"});
+  return !is_share &&
+         (HasAny(title, {"diameter", "particle", "channel", "sieve", "mesh"}) ||
+          HasWord(title, "size") ||
+          BeginsWithAny(title, {"x0", "xu", "d ", "x ", "d[", "x[", "d(", "x(", "d/", "x/"}));
 }
 
 struct Columns {
@@ -216,26 +282,21 @@ Columns Find(const std::filesystem::path& path, const Table& table) {
   };
   const std::size_t num_columns = table.titles.size();
   Columns columns;
-  columns.diameter = find([](const std::string& t) {
-    return HasAny(t, {"size", "diameter", "particle", "channel", "x0", "xu", "d ", "x ", "d[", "x[",
-                      "d(", "x(", "d/", "x/"});
-  });
+  columns.diameter =
+      find([](const std::string& t) { return IsOfDiameters(t) && UnitIn(t).has_value(); });
+  if (columns.diameter == num_columns) columns.diameter = find(IsOfDiameters);
   if (columns.diameter == num_columns) columns.diameter = 0;
   const auto is_share = [&](const std::string& t) { return &t != &table.titles[columns.diameter]; };
-  columns.share = find([&](const std::string& t) {
-    return is_share(t) && !HasAny(t, {"over", ">", "retained", "coarser"}) &&
-           HasAny(t, {"under", "cum", "passing", "finer", "<", "q3 ", "q3/", "q0/", "sum"});
-  });
+  columns.share = find([&](const std::string& t) { return is_share(t) && IsOfFiner(t); });
   columns.cumulative = columns.share != num_columns;
   if (!columns.cumulative) {
-    columns.share = find([&](const std::string& t) {
-      return is_share(t) && !HasAny(t, {"over", ">", "retained", "coarser"});
-    });
+    columns.share =
+        find([&](const std::string& t) { return is_share(t) && !IsOfCoarser(t) && !IsDensity(t); });
   }
   if (columns.share == num_columns) {
     Refuse(path,
-           "has only a cumulative share of what is coarser; export what is finer, or the "
-           "share of each class");
+           "has only a cumulative share of what is coarser, or a density q(x); export what is "
+           "finer, or the share of each class");
   }
   return columns;
 }
@@ -293,7 +354,7 @@ void ReadSizeText(std::string text, SizeDistribution& sizes) {
   const Table table = ReadTable(std::move(text), path);
   const Columns columns = Find(path, table);
   const std::string& title = table.titles[columns.diameter];
-  const double unit = UnitOf(path, title, table.head);
+  const double unit = UnitOf(path, title, table.title_line);
   std::vector<std::pair<double, double>> points;
   for (const auto& [row, line] : table.rows) {
     if (row.size() <= columns.diameter || !(row[columns.diameter] > 0)) continue;
@@ -315,8 +376,8 @@ void ReadSizeText(std::string text, SizeDistribution& sizes) {
   sizes.kind = cumulative ? SizeKind::kCumulative : SizeKind::kClasses;
   sizes.diameters = cumulative ? diameters : EdgesOf(diameters, title);
   const std::string& share_title = table.titles[columns.share];
-  if (HasAny(share_title, {"number", "q0"})) sizes.by = Weighting::kNumber;
-  if (HasAny(share_title, {"volume", "q3"})) sizes.by = Weighting::kVolume;
+  if (HasAny(share_title, {"number", "q0", "Q0"})) sizes.by = Weighting::kNumber;
+  if (HasAny(share_title, {"volume", "q3", "Q3"})) sizes.by = Weighting::kVolume;
   sizes.file.reset();
   Trim(sizes);
   base::Problems problems(path.string(), {});

@@ -63,9 +63,9 @@ struct WallSpec {
   WallKind shape = WallKind::kPlane;
   std::string material;  // name; empty: the first
   Vec3 position;         // [m]: point of a plane, centre of a disc, centre of a cylinder's one end
-  Vec3 direction{0, 0, 1};                 // normal, or axis to the other end; any length
-  std::optional<double> diameter{};        // [m], > 0: all but planes
-  std::optional<double> length{};          // [m], > 0: cylinders, cones
+  Vec3 direction{0, 0, 1};           // normal, or axis to the other end; any length
+  std::optional<double> diameter{};  // [m], > 0, of a cone >= 0: all but planes and rectangles
+  std::optional<double> length{};    // [m], > 0: cylinders, cones
   std::optional<double> inner_diameter{};  // [m], > 0: annuli
   std::optional<double> end_diameter{};    // [m], >= 0: cones, at the far end
   std::optional<double> width{};           // [m], > 0: rectangles, along the edge
@@ -79,7 +79,7 @@ struct WallSpec {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     constexpr auto kLength = base::Dimension::kLength;
-    visit("name", self.name, {.doc = "for messages"});
+    visit("name", self.name, {.doc = "for messages, and for the columns of series.csv"});
     visit("shape", self.shape, {.required = true, .doc = "see docs/scene.md"});
     visit("material", self.material, {.doc = "name of a material; default: the first"});
     visit(

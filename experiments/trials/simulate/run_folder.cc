@@ -87,7 +87,8 @@ Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
   std::string message;
   if (!options.fresh && fs::exists(path)) {
     try {
-      const engine::RunCheckpoint checkpoint = engine::Unpack(base::ReadFile(path));
+      const engine::RunCheckpoint checkpoint =
+          engine::Unpack(base::ReadFile(path, engine::kLargestCheckpoint));
       if (checkpoint.input_hash != job.input_hash) RefuseFolder(options.folder, "checkpoint");
       return {.run = job.go_on(checkpoint),
               .earlier = checkpoint.timing,

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "tests/error_in.h"
+#include "tests/peak_memory.h"
 
 namespace talus::engine {
 namespace run_test {
@@ -28,6 +29,17 @@ TEST(RunCheckpoint, IsReadBackWhole) {
   EXPECT_EQ(again.timing.cpu_time, kCheckpoint.timing.cpu_time);
   EXPECT_EQ(again.state, kCheckpoint.state);
   EXPECT_EQ(again.simulation, kCheckpoint.simulation);
+}
+
+// Of a full-scale bed it was there four times at once.
+TEST(RunCheckpoint, IsPackedWhereItIs) {
+  constexpr std::size_t kSize = std::size_t{64} << 20;
+  RunCheckpoint large = kCheckpoint;
+  large.simulation.reserve(kSize + 1000);
+  large.simulation.resize(kSize, 'x');
+  const long before = PeakMegabytes();
+  EXPECT_GT(Pack(std::move(large)).size(), kSize);
+  EXPECT_LT(PeakMegabytes() - before, 32);
 }
 
 TEST(RunCheckpoint, CutAnywhereOrChangedAnywhereItIsRefused) {

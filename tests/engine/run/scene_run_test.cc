@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,25 @@ TEST(Series, WallsOfOneNameHaveColumnsOfTheirOwn) {
   }
 }
 
+// A quotient that rounds down made a row come twice, with a rate of 0 / 0.
+TEST(Series, AnIntervalBelowTheStepGivesOneRowAStep) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_rows";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, 0]}],
+    "time_step": 1e-5, "stop": {"steps": 40},
+    "outputs": {"interval": 2.5e-6, "sections": [{"name": "s", "position": [0, 0, 0]}]}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  while (run.Advance()) {
+  }
+  run.WriteResults({});
+  const std::string rows = base::ReadFile(folder / "series.csv");
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 1 + 41);  // the head, and the start
+  EXPECT_THAT(rows, ::testing::Not(::testing::HasSubstr("nan")));
+}
+
 TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {
   const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_step";
   fs::create_directories(folder);
@@ -58,6 +78,21 @@ TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {
   EXPECT_TRUE(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().empty());
   loaded.scene.rayleigh_fraction = 0.21;
   EXPECT_EQ(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().size(), 1u);
+}
+
+// Spheres that are yet to come count: nothing was said where only they are fine, or any.
+TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfThatOfAPouredSphere) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_poured_step";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "pours": [{"mass": "0.1 g", "sizes": {"kind": "mono", "diameter": "1 mm"},
+               "mouth": [0, 0, "2 cm"], "mouth_diameter": "1 cm"}],
+    "walls": [{"shape": "plane"}],
+    "rayleigh_fraction": 0.3, "stop": {"time": 0.1}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  EXPECT_THAT(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages(),
+              ::testing::ElementsAre(::testing::HasSubstr("the time step is 0.3 of the Rayleigh")));
 }
 
 // Both passed without a word: a surface energy without a model, and a model without one.

@@ -292,7 +292,7 @@ TEST(BadMotion, IsRefused) {
     scene.walls = {wall};
     scene.Validate(problems);
     std::string text;
-    for (const base::Problem& p : problems.list()) text += p.path + ": " + p.message + "\n";
+    for (const base::Problem& p : problems.list()) text += p.path + ": " + p.Text() + "\n";
     return text;
   };
   Wall plane = testing::Floor();

@@ -184,6 +184,13 @@ TEST(SceneJson, AFillWithoutRoomSaysSo) {
     "fills": [{"mass": "1 g", "region": {"diameter": "5 mm", "height": "5 mm"},
                "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
               HasSubstr("fills[0].mass: is 0.001, must be less"));
+  // 4000 grains in a tube of which a third is the most; it was told to leave its height out.
+  EXPECT_THAT(ErrorOf(R"({
+    "materials": [{"name": "a"}], "walls": [{"shape": "plane"}], "stop": {"steps": 1},
+    "fills": [{"mass": "5.2 g", "region": {"diameter": "1.5 mm"}, "solid_fraction": 0.6,
+               "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
+              HasSubstr("fills[0].solid_fraction: was not reached without overlaps; give a lower "
+                        "one, such as 0.55"));
 }
 
 TEST(SceneJson, MissingFileAndBrokenJsonAreErrors) {

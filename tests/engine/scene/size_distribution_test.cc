@@ -165,6 +165,33 @@ TEST(SizeFile, CommasAndMillimetresCoarseEndFirst) {
   EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 1e-3, 1e-8);
 }
 
+// "Undersize" was taken for the diameter, and q3, a density, for Q3.
+TEST(SizeFile, ColumnsAreToldByTheWordsOfTheirTitles) {
+  const SizeDistribution undersize = ReadText("Undersize [%],Sieve [mm]\n0,1\n50,2\n100,3\n");
+  EXPECT_EQ(undersize.kind, SizeKind::kCumulative);
+  EXPECT_NEAR(SizeCurve(undersize).VolumeQuantile(0.5), 2e-3, 1e-8);
+  const SizeDistribution both =
+      ReadText("x [um],q3(x) [1/um],Q3(x) [%]\n10,0.1,0\n20,0.3,40\n30,0.1,90\n");
+  EXPECT_EQ(both.kind, SizeKind::kCumulative);
+  EXPECT_EQ(both.shares, (std::vector<double>{0, 40, 90}));
+  EXPECT_EQ(ReadText("d (mm);% less than d\n1;10\n2;60\n3;90\n").kind, SizeKind::kCumulative);
+}
+
+TEST(SizeFile, TheUnitIsThatOfTheTitles) {
+  const auto error = [](const std::string& text) { return ErrorIn([&] { ReadText(text); }); };
+  EXPECT_THAT(error("Instrument: 300 mm lens\nSize,% under\n1,0\n2,100\n"),
+              HasSubstr("in which unit"));
+  const SizeDistribution sizes = ReadText("Volume diameter (um),% under\n1,0\n2,100\n");
+  EXPECT_NEAR(sizes.diameters.back(), 2e-6, 1e-15);
+}
+
+// They were taken for two columns each.
+TEST(SizeFile, DecimalCommasBetweenCommasAreRefused) {
+  const auto error = [](const std::string& text) { return ErrorIn([&] { ReadText(text); }); };
+  EXPECT_THAT(error("Size (um),Volume (%)\n12,5,10,5\n20,5,89,5\n"),
+              HasSubstr("line 2: has 4 fields below 2 titles; decimal commas are likely"));
+}
+
 // They were taken away one by one, in time that grew as the square: minutes for a million.
 TEST(SizeFile, AMillionEmptyClassesAreDroppedAtOnce) {
   std::string text = "size (um),% in class\n";
@@ -198,6 +225,7 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   EXPECT_THAT(error("size,% under\n1,0\n2,100\n"), HasSubstr("in which unit"));
   EXPECT_THAT(error("nothing here"), HasSubstr("has no table"));
   EXPECT_THAT(error("size (um),% over\n1,100\n2,0\n"), HasSubstr("coarser"));
+  EXPECT_THAT(error("x (um),q3 [1/um]\n1,0.4\n2,0.6\n"), HasSubstr("density"));
   EXPECT_THAT(error("size (um),% under\n1,50\n2,40\n3,100\n"), HasSubstr("shares[1]"));
   // What follows used to be left out without a word.
   EXPECT_THAT(error("size (um),% under\n1,20\n2\n3,60\n4,100\n"),
