@@ -23,16 +23,22 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// That of a name's beginning is 1: "lin" means "linear" rather than "log".
+std::size_t DistanceBelow(std::size_t limit, std::string_view name, std::string_view candidate) {
+  if (name.size() >= 3 && candidate.starts_with(name)) return 1;
+  // A letter too many or too few is an edit each: a name of megabytes is compared with none.
+  const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+  return longer - shorter >= limit ? limit : EditDistance(name, candidate);
+}
+
 }  // namespace
 
 std::string Nearest(std::string_view name, std::span<const std::string> known) {
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  // Of a name whose letters are all wrong nothing is meant.
+  std::size_t best_distance = std::min(name.size(), std::max<std::size_t>(2, name.size() / 3) + 1);
   for (const std::string& candidate : known) {
-    // A letter too many or too few is an edit each: a name of megabytes is compared with none.
-    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
-    if (longer - shorter >= best_distance) continue;
-    const std::size_t distance = EditDistance(name, candidate);
+    const std::size_t distance = DistanceBelow(best_distance, name, candidate);
     if (distance < best_distance) {
       best = candidate;
       best_distance = distance;

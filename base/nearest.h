@@ -7,8 +7,8 @@
 
 namespace talus::base {
 
-// The name of `known` with the smallest edit distance to `name`; "" if none is near (at most a
-// third of the letters wrong, two at least).
+// The name of `known` that begins with `name` or has the smallest edit distance to it; "" if none
+// is near (at most a third of the letters wrong, or two of three and more).
 std::string Nearest(std::string_view name, std::span<const std::string> known);
 
 // "; did you mean "NAME"?" of that name; of all that go on after it with "_", where there are

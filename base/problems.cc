@@ -20,11 +20,17 @@ std::string Problems::FullPath(std::string_view path) const {
   return prefix_ + (path.front() == '[' ? "" : ".") + std::string(path);
 }
 
-void Problems::Add(std::string_view path, std::string message) {
-  std::string full = FullPath(path);
-  known_.insert(full);
+std::string Problem::Text(std::string_view written) const {
+  if (value.empty()) return message;
+  const std::string as_written = written.empty() ? "" : " (\"" + std::string(written) + "\")";
+  return "is " + value + as_written + ", " + message;
+}
+
+void Problems::Add(Problem problem) {
+  problem.path = FullPath(problem.path);
+  known_.insert(problem.path);
   if (list_.size() < kMostShown) {
-    list_.push_back({std::move(full), std::move(message)});
+    list_.push_back(std::move(problem));
   } else {
     ++num_more_;
   }
@@ -38,8 +44,8 @@ void Problems::AddUnread(std::string_view path, std::string message) {
 void Problems::Require(bool ok, std::string_view path, double value, std::string_view rule) {
   if (ok || known_.contains(FullPath(path))) return;
   std::ostringstream text;
-  text << "is " << value << ", " << rule;
-  Add(path, text.str());
+  text << value;
+  Add({.path = std::string(path), .message = std::string(rule), .value = text.str()});
 }
 
 void Problems::Require(bool ok, std::string_view path, std::string_view message) {
@@ -65,7 +71,7 @@ std::string Problems::Text() const {
       text << ' ';
     }
     if (!paths[i].empty()) text << OnOneLine(paths[i]) << ": ";
-    text << OnOneLine(list_[i].message);
+    text << OnOneLine(list_[i].Text(places[i].written));
   }
   if (num_more_ > 0) text << "\n… and " << num_more_ << " more problems";
   return text.str();

@@ -13,8 +13,9 @@
 namespace talus::base {
 
 struct Location {
-  int line = 0;    // from 1; 0 when unknown
-  int column = 0;  // from 1
+  int line = 0;           // from 1; 0 when unknown
+  int column = 0;         // from 1
+  std::string written{};  // the text that stands there, such as "5 cm"; empty for all other values
 };
 
 // Finds where the values of JSON paths such as `powder.sizes.classes[2].diameter` stand in their
@@ -25,6 +26,10 @@ using FindPlaces = std::function<std::vector<Location>(std::span<const std::stri
 struct Problem {
   std::string path;     // JSON path, empty for the file as a whole
   std::string message;  // what is wrong and what to do
+  std::string value{};  // in SI, where the message is the rule that it breaks
+
+  // "is 0.05 ("5 cm"), must be positive" of a value that is `written` with its unit.
+  std::string Text(std::string_view written = {}) const;
 };
 
 // Collects problems while an input is read and validated, then throws them as one ConfigError.
@@ -35,7 +40,11 @@ class Problems {
       : file_(std::move(file)), places_(std::move(places)) {}
 
   // Adds a problem with the value at `path`, taken relative to the enclosing Within.
-  void Add(std::string_view path, std::string message);
+  void Add(std::string_view path, std::string message) {
+    Add(Problem{.path = std::string(path), .message = std::move(message)});
+  }
+  // One that has been found elsewhere, under the path that it has here.
+  void Add(Problem problem);
 
   // The same of a value that could not be read. What has its default meanwhile breaks no rule.
   void AddUnread(std::string_view path, std::string message);

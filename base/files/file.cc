@@ -57,6 +57,15 @@ bool ReadAll(int fd, std::uint64_t offset, std::string& bytes) {
   return true;
 }
 
+// The new name of a file, which its folder holds. Some file systems sync no folders, and some
+// folders may be written but not read; the file itself is safe, so neither is an error.
+void SyncFolderOf(const std::filesystem::path& path) {
+  const std::filesystem::path parent = path.parent_path();
+  const Descriptor folder(
+      ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() >= 0) ::fsync(folder.get());
+}
+
 }  // namespace
 
 void ThrowUnwritten(const std::filesystem::path& path, int code) {
@@ -111,6 +120,7 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view byt
     ::unlink(temporary.c_str());
     ThrowUnwritten(path, code);
   }
+  if (sync) SyncFolderOf(path);
 }
 
 std::uint64_t Checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }

@@ -22,9 +22,10 @@ LockEnd LockWithin(int descriptor, std::chrono::milliseconds patience,
 bool IsLocked(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
-  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  // A file system without locks refuses this, too; nobody holds one there.
+  const bool is_held = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(file);
-  return !free;
+  return is_held;
 }
 
 }  // namespace talus::base

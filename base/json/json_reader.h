@@ -4,6 +4,9 @@
 // of an enum, missing required keys, and unknown keys with the nearest known one.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -11,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -57,7 +61,9 @@ class JsonReader {
       if (key.starts_with('$') || std::find(known_.begin(), known_.end(), key) != known_.end()) {
         continue;
       }
-      context_.problems.Add(key, "is not known here" + DidYouMean(key, known_));
+      const std::string meant = DidYouMean(key, known_);
+      context_.problems.Add(
+          key, "is not known here" + (meant.empty() ? "; there are " + Listed(known_) : meant));
     }
   }
 
@@ -72,19 +78,37 @@ class JsonReader {
   }
   template <std::integral T>
   void Read(const json& value, T& field, const FieldInfo&) {
-    const bool whole = value.is_number_integer();
-    if (whole && value.is_number_unsigned()) {
-      if (std::in_range<T>(value.get<std::uint64_t>())) {
-        field = static_cast<T>(value.get<std::uint64_t>());
-        return;
-      }
-    } else if (whole && std::in_range<T>(value.get<std::int64_t>())) {
-      field = static_cast<T>(value.get<std::int64_t>());
+    if (const std::optional<T> number = WholeNumber<T>(value)) {
+      field = *number;
       return;
     }
-    context_.problems.AddUnread("", "must be a whole number from " +
-                                        std::to_string(std::numeric_limits<T>::min()) + " to " +
-                                        std::to_string(std::numeric_limits<T>::max()));
+    std::string range;
+    if (std::is_unsigned_v<T>) range = ", 0 or more";
+    if (sizeof(T) < sizeof(std::int64_t)) {
+      range = " from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+              std::to_string(std::numeric_limits<T>::max());
+    }
+    context_.problems.AddUnread("", "must be a whole number" + range);
+  }
+  // 2e6 is one, too.
+  template <std::integral T>
+  static std::optional<T> WholeNumber(const json& value) {
+    constexpr double kExact = 9007199254740992;  // 2^53: up to here each has a double of its own
+    std::optional<std::int64_t> number;
+    if (value.is_number_unsigned()) {
+      const auto positive = value.get<std::uint64_t>();
+      return std::in_range<T>(positive) ? std::optional(static_cast<T>(positive)) : std::nullopt;
+    }
+    if (value.is_number_integer()) {
+      number = value.get<std::int64_t>();
+    } else if (value.is_number_float()) {
+      const auto real = value.get<double>();
+      if (std::abs(real) <= kExact && std::trunc(real) == real) {
+        number = static_cast<std::int64_t>(real);
+      }
+    }
+    if (!number || !std::in_range<T>(*number)) return std::nullopt;
+    return static_cast<T>(*number);
   }
   void Read(const json& value, double& field, const FieldInfo& info) {
     if (value.is_number()) {
@@ -128,7 +152,9 @@ class JsonReader {
         return;
       }
     }
-    const std::string all = "must be one of \"" + Joined(NamesOf<T>(), "\", \"") + "\"";
+    const std::vector<std::string> names = NamesOf<T>();
+    const std::string all = "must be one of \"" + Joined(names, "\", \"") + "\"" +
+                            (value.is_string() ? DidYouMean(value.get<std::string>(), names) : "");
     context_.problems.AddUnread("", RemedyOf<T>(value).value_or(all));
   }
   // What to write in place of a name that is no longer one.

@@ -62,7 +62,14 @@ class PlaceFinder : public JsonEvents {
   bool number_float(number_float_t, const string_t&) override {
     return Value(position_.NumberStart());
   }
-  bool string(string_t&) override { return Value(position_.StringStart()); }
+  bool string(string_t& value) override {
+    std::string path;
+    const std::size_t longest_quantity = 40;
+    if (Note(position_.StringStart(), &path) && value.size() <= longest_quantity) {
+      places_[path].written = value;
+    }
+    return true;
+  }
   bool start_object(std::size_t) override { return Open(false); }
   bool start_array(std::size_t) override { return Open(true); }
   bool end_object() override { return Close(); }

@@ -148,6 +148,30 @@ TEST(Json, ReadsEveryKindOfFieldWithUnitsAndComments) {
   EXPECT_EQ(outer.color, Color::kBlue);
 }
 
+TEST(Json, AWholeNumberMayHaveAnExponent) {
+  EXPECT_EQ(Load(R"({"name": "n", "inner": {"count": 2e1}})").inner.count, 20);
+  EXPECT_EQ(Load(R"({"name": "n", "inner": {"count": -3.0}})").inner.count, -3);
+  for (const char* count : {"2.5", "1e10", "1e300", "\"3\""}) {
+    EXPECT_THAT(ErrorOf(std::string(R"({"name": "n", "inner": {"count": )") + count + "}}"),
+                HasSubstr("must be a whole number from -2147483648 to 2147483647"));
+  }
+}
+
+struct Seeded {
+  std::uint64_t seed = 1;
+  std::int64_t steps = 1;
+
+  TALUS_FIELDS(seed, steps);
+};
+
+TEST(Json, ARangeOfSixtyFourBitsIsNotSpeltOut) {
+  const std::string error =
+      ErrorIn([] { LoadOptions<Seeded>(ParseJson(R"({"seed": -1, "steps": 1.5})", "spec.json")); });
+  EXPECT_THAT(error, HasSubstr("seed: must be a whole number, 0 or more"));
+  EXPECT_THAT(error, HasSubstr("steps: must be a whole number"));
+  EXPECT_THAT(error, Not(HasSubstr("9223372036854775808")));
+}
+
 TEST(Json, ReportsEveryProblemWithItsPathLineAndColumn) {
   const std::string error = ErrorOf(R"({
   "inner": {"diametr": 1, "count": 1.5},
@@ -162,6 +186,26 @@ TEST(Json, ReportsEveryProblemWithItsPathLineAndColumn) {
   EXPECT_THAT(error, HasSubstr("spec.json:4:11: mass: \"3 m\" has the unit \"m\""));
   EXPECT_THAT(error, HasSubstr("spec.json:5:12: color: must be one of \"red\", \"blue\""));
   EXPECT_THAT(error, HasSubstr("name: is missing"));
+}
+
+TEST(Json, ValueThatBreaksARuleIsQuotedAsItIsWritten) {
+  const std::string error =
+      ErrorOf(R"({"inner": {"diameter": "-5 cm"}, "list": [{"diameter": -1}]})");
+  EXPECT_THAT(error, HasSubstr("inner.diameter: is -0.05 (\"-5 cm\"), must be positive"));
+  EXPECT_THAT(error, HasSubstr("list[0].diameter: is -1, must be positive"));
+}
+
+TEST(Json, MisspeltEnumValueIsMetWithTheNearest) {
+  EXPECT_THAT(ErrorOf(R"({"color": "bleu"})"),
+              HasSubstr("must be one of \"red\", \"blue\"; did you mean \"blue\"?"));
+  EXPECT_THAT(ErrorOf(R"({"color": "x"})"), Not(HasSubstr("did you mean")));
+}
+
+TEST(NearestName, BeginsWithWhatIsWrittenRatherThanResemblesIt) {
+  const std::vector<std::string> scales{"log", "linear"};
+  EXPECT_EQ(Nearest("lin", scales), "linear");
+  EXPECT_EQ(Nearest("lgo", scales), "log");
+  EXPECT_EQ(Nearest("xy", std::vector<std::string>{"ab"}), "");  // no letter is right
 }
 
 TEST(Json, ValueThatCannotBeReadIsReportedOnce) {
