@@ -14,6 +14,8 @@
 namespace talus::optimizer {
 namespace {
 
+constexpr double kFar = 1e300;  // a log weight below all others
+
 // Means in the measurement's standard deviations.
 Eigen::MatrixXd Standardised(const PredictedMeasurement& m) {
   return m.mean.array().rowwise() / m.variance.array().sqrt().transpose();
@@ -27,10 +29,18 @@ double Bits(const Eigen::MatrixXd& z) {
   return 0.5 * (1 + solver.eigenvalues().array().max(0)).log().sum() / std::log(2.0);
 }
 
-// The weight of each draw, when `seen` was measured.
-Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen) {
+// Whether each draw is the same set as this one: a posterior's draws may repeat.
+Eigen::Array<bool, Eigen::Dynamic, 1> SameAs(const Eigen::MatrixXd& draws, Eigen::Index truth) {
+  return (draws.rowwise() - draws.row(truth)).rowwise().squaredNorm().array() == 0;
+}
+
+// The weight of each draw, when `seen` was measured and the truth is none of them: it would take
+// all the weight of a telling measurement, and leave a range of no width.
+Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen,
+                        const Eigen::Array<bool, Eigen::Dynamic, 1>& is_truth) {
   const Eigen::ArrayXd squared = (z.rowwise() - seen).rowwise().squaredNorm().array();
-  const Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());
+  Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());
+  if (!is_truth.all()) log_weight = is_truth.select(-kFar, log_weight);
   return (log_weight - log_weight.maxCoeff()).exp();
 }
 
@@ -88,9 +98,10 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   Eigen::MatrixXd widths(count, draws.cols());
   if (has_goal) learning.goal_half_width = 0;
   for (Eigen::Index t = 0; t < count; ++t) {
-    Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
+    const Eigen::Index truth = t * draws.rows() / count;
+    Eigen::RowVectorXd seen = z.row(truth);
     for (double& value : seen) value += random.Normal();
-    const Eigen::VectorXd weights = Weights(z, seen);
+    const Eigen::VectorXd weights = Weights(z, seen, SameAs(draws, truth));
     widths.row(t) = CredibleWidths90(Resampled(draws, weights), nuisances).transpose();
     if (!has_goal) continue;
     learning.goal_half_width +=

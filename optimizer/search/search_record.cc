@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "optimizer/designs/design.h"
 #include "optimizer/designs/r_sequence.h"
@@ -14,6 +15,8 @@ namespace {
 
 // Two evaluations this close to each other teach under noise what a replicate would.
 constexpr double kReplicateDistance = 0.005;
+
+constexpr int kMostTries = 100000;
 
 // A row of a table that is evaluated once has been spent on the design.
 int DesignSize(const Domain& domain, const SurrogateOptions& options) {
@@ -126,12 +129,20 @@ Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
     }
   }
   base::Random random(options_.seed, base::Stream("not the same point"), told_.size());
+  constexpr double kFarthest = 0.5;  // beyond it nearly all end in corners
   Eigen::VectorXd moved = point;
-  for (double reach = 1e-3; WasEvaluated(moved, asked) || !domain_.Contains(moved); reach *= 1.2) {
+  double reach = 1e-3;
+  for (int tries = 0; WasEvaluated(moved, asked) || !domain_.Contains(moved); ++tries) {
+    if (tries == kMostTries) {
+      throw base::Error(
+          "no point is found that was not evaluated: constraints or levels leave too little of the "
+          "ranges; widen them");
+    }
     for (Eigen::Index k = 0; k < moved.size(); ++k) {
       moved[k] = std::clamp(point[k] + reach * random.Normal(), 0.0, 1.0);
     }
     if (!domain_.IsContinuous()) moved = domain_.Snap(moved);
+    reach = std::min(1.2 * reach, kFarthest);
   }
   return {moved, Origin::kModel};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "base/random.h"
 #include "optimizer/search/history.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr int kMaxRuns = 1000;            // of a local search, each from another start
 constexpr int kMaxEvaluations = 1000000;  // the budget is the caller's business
 constexpr double kFirstStep = 0.15;       // of a local search, in the unit cube
+constexpr double kNoValue = 1e100;        // of what fails before anything has a value
 constexpr double kSmallestStep = 1e-4;    // a local search that moves less has converged
 
 struct Wanted {  // thrown through the search to end it
@@ -38,7 +40,9 @@ class Memory {
     if (!domain_.Contains(point)) return Worst();
     for (const Observation& observation : told_) {
       if (SamePoint(observation.point, point)) {
-        return observation.failed ? Worst() : observation.value;
+        if (observation.failed) return Worst();
+        worst_ = std::max(worst_.value_or(observation.value), observation.value);
+        return observation.value;
       }
     }
     for (const Eigen::VectorXd& runs : pending_) {
@@ -50,11 +54,7 @@ class Memory {
 
   // Only what this replay has seen so far counts, so that later observations do not change the path
   // the search has taken.
-  double Worst() const {
-    double worst = seen_.empty() ? 0 : seen_.front().second;
-    for (const auto& [point, value] : seen_) worst = std::max(worst, value);
-    return worst;
-  }
+  double Worst() const { return worst_.value_or(kNoValue); }
   double Nearest(const Eigen::VectorXd& to) const {
     double smallest = std::numeric_limits<double>::infinity();
     double nearest = 0;
@@ -71,6 +71,7 @@ class Memory {
   std::span<const Eigen::VectorXd> pending_;
   const Domain& domain_;
   std::vector<std::pair<Eigen::VectorXd, double>> seen_;
+  std::optional<double> worst_;  // of the values seen
   std::optional<Eigen::VectorXd> wanted_;
 };
 

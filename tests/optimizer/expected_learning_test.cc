@@ -47,6 +47,22 @@ TEST(ExpectedLearning, NarrowsWhatItMeasuresAndNothingElse) {
   EXPECT_GT(learning.width[1], 0.85);
 }
 
+// The draw that is taken for the truth took nearly all the weight of so telling a measurement, and
+// its twin would. The true range is that of two normals, ± 2.2 sd with heavy tails, of many draws.
+TEST(ExpectedLearning, TheTruthIsNoneOfTheDrawsThatAreWeighted) {
+  const double sd = 0.01;
+  const auto width = [&](const Eigen::MatrixXd& draws) {
+    return Learn(draws, {.mean = draws, .variance = Eigen::VectorXd::Constant(2, sd * sd)}, 1)
+        .width.mean();
+  };
+  const Eigen::MatrixXd draws = Even(1000);
+  const Eigen::MatrixXd twice = (Eigen::MatrixXd(2000, 2) << draws, draws).finished();
+  // A handful of the 1000 lie within, which span less than the range.
+  const double true_width = width(Even(40000));
+  EXPECT_GT(width(draws) / true_width, 0.6);
+  EXPECT_GT(width(twice) / true_width, 0.6);
+}
+
 // x⁴ has a slope of 4 at 1, and below 0.4 less than an error in all: what it leaves hangs on the
 // set.
 TEST(ExpectedLearning, SaysHowFarTheRangesHangOnTheSet) {
