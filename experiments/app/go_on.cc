@@ -108,10 +108,15 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
   const double takes = analysis::FirstCoreTime(view, options);
   const double allowed = share * campaign::CoreTime(view.spec).OfSearch(view.trials);
   if (takes > allowed) {
-    if (tell.quiet || tell.json) return;
-    std::cout << "  sensitivity       not simulated, as it takes " << trials::DurationText(takes)
-              << " of processor time and the spec allows " << trials::DurationText(allowed)
-              << ": talus sensitivity " << base::ShellWord(folder.string()) << std::endl;
+    const std::string why = "not simulated, as it takes " + trials::DurationText(takes) +
+                            " of processor time and the spec allows " +
+                            trials::DurationText(allowed) + ": talus sensitivity " +
+                            base::ShellWord(folder.string());
+    if (tell.json) {
+      PrintEvent("message", "text", base::JsonText(nlohmann::ordered_json("sensitivity " + why)));
+    } else if (!tell.quiet) {
+      std::cout << "  sensitivity       " << why << std::endl;
+    }
     return;
   }
   options.core_time = allowed;

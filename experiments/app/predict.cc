@@ -69,6 +69,7 @@ void RunPredict(const PredictArguments& arguments) {
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
     if (prediction.runs.empty() && prediction.num_failed > 0) {
+      if (arguments.json) std::cout << base::JsonText(list, 2) << std::endl;
       throw base::Error(file + ": every run failed, the last: " + prediction.failure);
     }
     if (arguments.json) {

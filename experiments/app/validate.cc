@@ -182,13 +182,10 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
 
 void ValidateHeap(const base::JsonFile& file, bool) {
   const rigs::Case rig_case = rigs::LoadCase(file.path);
-  const rigs::CaseSize size = rigs::EstimateCase(rig_case);
+  const campaign::RunEstimate run = campaign::EstimateRun(rig_case);
   std::cout << file.path.string() << ": is a case in order\n  rig               "
-            << base::NameOf(rig_case.rig.kind) << "\n  grains            " << size.num_grains
-            << " of " << base::ShortNumber(1e3 * size.mean_diameter)
-            << " mm (D50)\n  steps             about "
-            << base::ShortNumber(size.simulated_time / size.time_step) << " of "
-            << base::ShortNumber(size.time_step) << " s\n";
+            << rigs::DeviceText(rig_case) << "\n  simulation        " << campaign::RunText(run)
+            << ", about " << trials::DurationText(run.core_seconds) << " of a core\n";
   for (const std::string& warning : rigs::CaseWarnings(rig_case)) {
     std::cout << "  warning: " << warning << '\n';
   }

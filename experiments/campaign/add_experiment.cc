@@ -37,6 +37,23 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   return with;
 }
 
+// By the keys of the test's own file.
+void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
+           const std::filesystem::path& file) {
+  CampaignSpec spec = SpecWith(before, experiment);
+  spec.budget = before.budget;
+  SetDrumDiameters(spec);
+  base::Problems found;
+  CheckSpec(spec, found);
+  const std::string place = "experiments[" + std::to_string(spec.experiments->size() - 1) + "].";
+  base::Problems problems(file.string(), base::ReadJsonFile(file).places);
+  for (base::Problem problem : found.list()) {
+    if (problem.path.starts_with(place)) problem.path.erase(0, place.size());
+    problems.Add(std::move(problem));
+  }
+  problems.ThrowIfAny();
+}
+
 void Write(OpenedCampaign& opened, const journal::CampaignRecord& record, const TakenOver& taken) {
   const journal::ExperimentRecord& experiment = record.experiments.back();
   KeepCampaign(opened.folder, record);
@@ -55,7 +72,8 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
     throw base::ConfigError("--core-time: must be positive");
   }
   const auto experiment = ReadExperiment(file);
-  OpenedCampaign opened = OpenCampaign(folder, {}, console);
+  OpenedCampaign opened = OpenCampaign(
+      folder, {}, console, [&](const CampaignSpec& before) { Check(before, experiment, file); });
   CampaignSpec spec = SpecWith(opened.spec, experiment);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
   CoreTime core_time(opened.spec);
@@ -66,9 +84,6 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   if (const auto goal = LastGoal(opened.folder.root, opened.spec)) {
     *spec.budget.core_time += goal->core_time;
   }
-  base::Problems problems(file.string(), {});
-  CheckSpec(spec, problems);
-  problems.ThrowIfAny();
   SetDrumFills(spec);
   journal::CampaignRecord record = opened.journal.Campaign();
   record.experiments.push_back(

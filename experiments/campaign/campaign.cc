@@ -231,8 +231,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
     NoteFormerEngineGone();
     return;
   }
-  if (job.duration > 0) trial.duration_s += job.duration;  // with its earlier attempts
-  if (job.cpu_time > 0) trial.cpu_s += job.cpu_time;
+  AddTimes(job, trial);  // to those of its earlier attempts
   if (!job.host.empty()) trial.host = job.host;
   if (job.end == runners::JobEnd::kNotStarted) {  // the set-up's fault: every other would fail
     throw base::Error("trial " + std::to_string(trial.id) +
@@ -295,6 +294,7 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
   }
   if (trials::LogSaysDiskFull(folder_.trial(trial.id))) StopForDisk(trial, reason);
   if (spec_.retry_failed && trial.attempts == 1) {
+    parts_.runner->Forget(JobOf(trial));
     ++trial.attempts;
     trial.seed = planner_.SeedOf(trial);
     journal_.Restart({&trial, 1});
@@ -348,14 +348,6 @@ void Campaign::NoteElapsed() {
   if (Clock::now() - noted_ < kPeriod) return;
   noted_ = Clock::now();
   NoteProgress();
-}
-
-void Campaign::DropRunning() {
-  for (const auto& [id, trial] : running_) parts_.runner->Cancel(id);
-  const auto until = Clock::now() + std::chrono::seconds(5);
-  std::size_t left = running_.size();
-  while (left > 0 && Clock::now() < until) left -= parts_.runner->Wait(kWaitSeconds).size();
-  running_.clear();
 }
 
 void Campaign::NoteBest(const journal::TrialRecord& trial) {

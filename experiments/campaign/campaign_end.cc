@@ -13,6 +13,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/remains.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/record/trial_end.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
@@ -41,7 +42,7 @@ void Campaign::NoteStop(const std::vector<journal::TrialRecord>& planned) {
   if (!stop_json_.empty() || !stop || stop->kind == StopKind::kAllFailed) return;
   const bool confirms =
       std::ranges::count(planned, journal::TrialKind::kConfirm, &journal::TrialRecord::kind) > 0;
-  if (stop->kind != StopKind::kRule && !confirms) return;
+  if (stop->kind != StopKind::kRule && stop->kind != StopKind::kUndefined && !confirms) return;
   stop_json_ = base::JsonTextWriter::TextOf(*stop);
   NoteProgress();
 }
@@ -53,6 +54,27 @@ void Campaign::NoteProgress() {
   for (const auto& former : {folder_.result(), folder_.posterior()}) {
     std::filesystem::remove(former, absent);
   }
+}
+
+void Campaign::DropRunning() {
+  for (const auto& [id, trial] : running_) parts_.runner->Cancel(id);
+  constexpr double kPollSeconds = 0.5;
+  const auto until = Clock::now() + std::chrono::seconds(5);
+  std::size_t left = running_.size();
+  std::vector<journal::TrialRecord> stopped;
+  while (left > 0 && Clock::now() < until) {
+    for (const runners::FinishedJob& job : parts_.runner->Wait(kPollSeconds)) {
+      --left;
+      const auto found = running_.find(job.id);
+      // One that has just ended well is adopted by the next session, with its time.
+      if (found == running_.end() || job.ok()) continue;
+      parts_.runner->Forget(JobOf(found->second));
+      AddTimes(job, found->second);
+      stopped.push_back(found->second);
+    }
+  }
+  if (!stopped.empty()) journal_.Restart(stopped);
+  running_.clear();
 }
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {

@@ -49,7 +49,7 @@ Earlier ReadEarlier(const std::filesystem::path& root) {
     columns.push_back(journal::ColumnName(p));
   }
   const auto rows = optimizer::ReadCandidateTable(folder.posterior(), columns);
-  const std::size_t step = std::max<std::size_t>(1, rows.size() / kMostDraws);
+  const std::size_t step = std::max<std::size_t>(1, (rows.size() + kMostDraws - 1) / kMostDraws);
   for (std::size_t i = 0; i < rows.size(); i += step) earlier.draws.push_back(rows[i]);
   return earlier;
 }

@@ -19,7 +19,7 @@ std::unique_ptr<runners::Runner> MakeRunner(const CampaignSpec& spec,
           .workers = LocalWorkers(spec, NumCores()), .threads_per_job = spec.threads});
     case RunnerKind::kSlurm: {
       runners::SlurmOptions options = spec.runner.slurm;
-      if (spec.workers > 0) options.max_jobs = std::min(options.max_jobs, spec.workers);
+      options.max_jobs = MostAtATime(spec, NumCores());
       options.cores = std::max(options.cores, spec.threads);
       options.ranks = RanksOf(spec);
       return std::make_unique<runners::SlurmRunner>(options, folder);

@@ -60,7 +60,8 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       }
       ++running;
     }
-    for (const runners::FinishedJob& job : parts.runner->Wait(0.5)) {
+    const double wait = running > 0 ? 0.5 : 0;  // [s]
+    for (const runners::FinishedJob& job : parts.runner->Wait(wait)) {
       const auto index = static_cast<std::size_t>(job.id - 1);
       const fs::path folder = runs.at(index).folder;
       // The same call later simulates what has left no result.

@@ -56,6 +56,22 @@ void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& wr
   read.experiment.reset();
 }
 
+// A drum's fill was read off its photographs, which need not be there any more.
+void KeepDrumFills(const nlohmann::json& written, const CampaignSpec& begun, CampaignSpec& read) {
+  const auto states_fill = [](const nlohmann::json& place) {
+    return place.contains("rig") && place.at("rig").contains("fill");
+  };
+  if (states_fill(written)) return;
+  if (read.rig && begun.rig) read.rig->drum.fill = begun.rig->drum.fill;
+  if (!read.experiments || !begun.experiments || !written.contains("experiments")) return;
+  const nlohmann::json& entries = written.at("experiments");
+  for (std::size_t i = 0; i < std::min(entries.size(), begun.experiments->size()); ++i) {
+    std::optional<rigs::RigOptions>& rig = (*read.experiments)[i].rig;
+    const std::optional<rigs::RigOptions>& had = (*begun.experiments)[i].rig;
+    if (rig && had && !states_fill(entries[i])) rig->drum.fill = had->drum.fill;
+  }
+}
+
 // No trial has succeeded with the one before.
 void NoteMendedEngine(SpecChange& change) {
   change.engine_is_new = true;
@@ -82,11 +98,12 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   const CampaignSpec begun = ParseSpecText(record.spec_json);
   const base::JsonFile file = base::ReadJsonFile(path);
   change.spec = ReadSpecWithPosteriors(file, &begun);
+  const nlohmann::json begun_with = base::ParseJson(record.spec_text, record.spec_path).root;
   // `calibrate --hold-out` is of the campaign and not in the file.
-  if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
+  if (!begun_with.contains("hold_out")) change.spec.hold_out = begun.hold_out;
   KeepAddedParameters(begun, change.spec);
-  KeepWhatWasGiven(base::ParseJson(record.spec_text, record.spec_path).root, file.root, begun,
-                   change.spec);
+  KeepDrumFills(file.root, begun, change.spec);
+  KeepWhatWasGiven(begun_with, file.root, begun, change.spec);
   auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   const bool engine_is_new = AllowMendedEngine(trials, forbidden);
   if (!forbidden.empty()) {

@@ -251,7 +251,8 @@ void Reopen(journal::Journal& journal) {
   journal.SetProgress(progress);
 }
 
-OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, Console& console) {
+OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, Console& console,
+                            const std::function<void(const CampaignSpec&)>& check) {
   const CampaignFolder folder{fs::absolute(root)};
   if (!fs::is_directory(folder.root)) {
     throw base::ConfigError(root.string() + ": is no folder of a campaign");
@@ -269,6 +270,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
+  check(spec);
   if (change.engine_is_new) base::WriteFileAtomically(folder.mended(), change.words + "\n");
   // First: a search that stayed ended beside its changed spec would never go on.
   if (change.SearchesOn() || options.objective) Reopen(journal);

@@ -51,8 +51,11 @@ struct OpenedCampaign {
   CampaignSpec spec;
   bool engine_is_new = false;  // mended_engine.h; CampaignParts is to be told
 };
-OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
-                            Console& console);
+// `check`: throws ConfigError where what is asked does not go with the spec, before anything of the
+// campaign is changed.
+OpenedCampaign OpenCampaign(
+    const std::filesystem::path& folder, const ResumeOptions& options, Console& console,
+    const std::function<void(const CampaignSpec&)>& check = [](const CampaignSpec&) {});
 
 // A campaign that has ended is to go on: something was asked of it since.
 void Reopen(journal::Journal& journal);

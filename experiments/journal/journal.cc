@@ -74,6 +74,10 @@ TrialRecord ReadTrial(const Statement& row) {
   row.Read(0, t.id, t.kind, t.kind_index, t.set, t.origin, t.objective, t.seed, t.scale_factor,
            t.status, t.reason, t.attempts, t.finish_order, t.started_utc, t.finished_utc,
            t.duration_s, t.cpu_s, t.num_steps, t.num_particles, t.host, t.job, t.experiment, t.due);
+  if (t.status == TrialStatus::kRunning) {  // what its attempts take is added to these
+    if (std::isnan(t.duration_s)) t.duration_s = 0;
+    if (std::isnan(t.cpu_s)) t.cpu_s = 0;
+  }
   return t;
 }
 

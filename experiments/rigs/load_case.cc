@@ -119,6 +119,21 @@ std::string PathOfWidth(const Case& c, double across) {
   return finder.keys.size() == 1 ? "rig." + finder.keys.front() : "rig";
 }
 
+// A filling that stands fifty times as high as its vessel is wide has its mass in another unit,
+// most often.
+void ValidateHeight(const Case& c, const Vessel& vessel, base::Problems& problems) {
+  constexpr double kMostWidths = 50;
+  const double height = FilledHeight(c, vessel);
+  const double in_grams = 1e-3 * height / vessel.across;
+  const bool is_usual = in_grams > 0.1 && in_grams <= kMostWidths;
+  problems.Require(
+      height <= kMostWidths * vessel.across, "powder.mass", c.powder.mass,
+      "in kg, which stands " + base::ShortNumber(height) + " m high in a vessel of " +
+          base::ShortNumber(1e3 * vessel.across) + " mm" +
+          (is_usual ? "; write \"" + base::ShortNumber(c.powder.mass) + " g\" for grams"
+                    : ": one of mass, density and vessel has another unit"));
+}
+
 void ValidateWithRig(const Case& c, base::Problems& problems) {
   const RigEntry& entry = EntryOf(c);
   const Vessel vessel = entry.vessel(c);
@@ -133,6 +148,7 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
                    "must be above three (scaled) grain diameters, " +
                        base::ShortNumber(1e3 * least) + " mm" +
                        (factor > 1 ? " at scale factor " + base::ShortNumber(factor) : ""));
+  if (problems.empty()) ValidateHeight(c, vessel, problems);
   entry.validate(c, problems);
   ValidateLastPicture(c, problems);
   if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);

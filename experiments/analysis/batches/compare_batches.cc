@@ -6,6 +6,7 @@
 #include "base/nearest.h"
 #include "base/problems.h"
 #include "base/random.h"
+#include "base/text/joined.h"
 #include "base/units.h"
 #include "experiments/analysis/batches/batch_warnings.h"
 #include "experiments/analysis/batches/batches.h"
@@ -161,9 +162,8 @@ std::vector<double> MattersOf(const Batch& first, const std::map<std::string, st
   }
   for (const auto& [name, value] : given) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    const std::string near = base::Nearest(name, names);
-    problems.Add(name, near.empty() ? "is no calibrated parameter of these campaigns"
-                                    : "is not known here; did you mean \"" + near + "\"?");
+    problems.Add(name, "is no calibrated parameter of these campaigns" +
+                           base::DidYouMean(name, names) + "; there are " + base::Listed(names));
   }
   problems.ThrowIfAny();
   return matters;

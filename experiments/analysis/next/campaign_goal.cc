@@ -166,6 +166,7 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
   const fs::path folder = campaign::GoalFolder(plan_.folder.root) / base::FileNumber(num_ended);
   const auto strategy = campaign::StrategyOf(view, view.Answered());
   if (!strategy->CanModel()) {  // by the next look it can
+    state.num_runs = Collect(state.core_time).num_runs;
     fs::create_directories(folder);
     campaign::KeepGoal(folder, state);
     return state;

@@ -89,7 +89,9 @@ void ValidateAsAdded(const campaign::JointView& view, const TestCandidate& test,
   if (found.empty()) campaign::ValidateCases(spec, found);
   for (const base::Problem& problem : found.list()) {
     const bool own = problem.path.starts_with(place + ".");
-    problems.Add(own ? problem.path.substr(place.size() + 1) : problem.path, problem.message);
+    problems.Add({.path = own ? problem.path.substr(place.size() + 1) : problem.path,
+                  .message = problem.message,
+                  .value = problem.value});
   }
 }
 

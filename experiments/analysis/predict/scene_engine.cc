@@ -1,7 +1,9 @@
 #include "experiments/analysis/predict/scene_engine.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -85,7 +87,15 @@ void AddSeries(const fs::path& file, ScalarList scalars) {
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
     std::vector<double>& row = rows.emplace_back();
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      double& value = row.emplace_back(std::numeric_limits<double>::quiet_NaN());
+      std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    }
+    if (row.size() != names.size()) {
+      throw base::Error(file.string() + ": line " + std::to_string(rows.size() + 1) +
+                        " is cut off: it has " + std::to_string(row.size()) + " of " +
+                        std::to_string(names.size()) + " cells");
+    }
   }
   const std::size_t first = rows.size() / 2;
   for (std::size_t c = 1; c < names.size() && first < rows.size(); ++c) {

@@ -128,9 +128,8 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
   }
   for (const auto& [name, value] : set) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    const std::string near = base::Nearest(name, names);
-    problems.Add(name, near.empty() ? "is no calibrated parameter of this campaign"
-                                    : "is not known here; did you mean \"" + near + "\"?");
+    problems.Add(name, "is no calibrated parameter of this campaign" +
+                           base::DidYouMean(name, names) + "; there are " + base::Listed(names));
   }
   problems.ThrowIfAny();
   return point;

@@ -15,6 +15,12 @@ int LocalWorkers(const CampaignSpec& spec, int num_cores) {
   return spec.workers > 0 ? spec.workers : std::max(1, num_cores / CoresOfTrial(spec));
 }
 
+int MostAtATime(const CampaignSpec& spec, int num_cores) {
+  if (spec.runner.kind == RunnerKind::kLocal) return LocalWorkers(spec, num_cores);
+  const int most = spec.runner.slurm.max_jobs;
+  return spec.workers > 0 ? std::min(most, spec.workers) : most;
+}
+
 int AtATime(const CampaignSpec& spec, int under_way) {
   if (spec.runner.kind != RunnerKind::kLocal) return under_way;
   return std::min(under_way, LocalWorkers(spec, NumCores()));

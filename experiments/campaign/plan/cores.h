@@ -17,6 +17,9 @@ int CoresOfTrial(const CampaignSpec& spec);
 // Trials at the same time on a machine of so many cores: as the spec says, else as many as fit.
 int LocalWorkers(const CampaignSpec& spec, int num_cores);
 
+// Trials at the same time: here as LocalWorkers, in a queue as many jobs as it may hold.
+int MostAtATime(const CampaignSpec& spec, int num_cores);
+
 // Trials that run, of so many under way: on this machine some of these wait for a core, or to be
 // told.
 int AtATime(const CampaignSpec& spec, int under_way);

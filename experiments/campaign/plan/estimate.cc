@@ -38,19 +38,22 @@ double MeasureSpeed(rigs::Case rig_case, std::int64_t num_grains) {
   return (rig->Progress().particle_steps - before) / seconds;
 }
 
-TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double scale_factor) {
+// All but its core time.
+RunEstimate SizeOfRun(const rigs::Case& rig_case) {
   // Peak resident memory of runs with 6,000, 48,000 and 280,000 grains (20, 46 and 193 MB).
   constexpr double kProgram = 16e6;
   constexpr double kGrain = 650;
-  const rigs::CaseSize size = rigs::EstimateCase(TypicalCase(spec, experiment, scale_factor));
-  return {.experiment = experiment,
-          .scale_factor = scale_factor,
-          .num_grains = size.num_grains,
+  const rigs::CaseSize size = rigs::EstimateCase(rig_case);
+  return {.num_grains = size.num_grains,
           .mean_diameter = size.mean_diameter,
           .time_step = size.time_step,
           .num_steps = size.simulated_time / size.time_step,
           .grain_steps = size.grain_time / size.time_step,
           .memory = kProgram + kGrain * static_cast<double>(size.num_grains)};
+}
+
+TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double scale_factor) {
+  return {SizeOfRun(TypicalCase(spec, experiment, scale_factor)), experiment, scale_factor};
 }
 
 // [s] of one candidate's replicate, at every experiment.
@@ -79,15 +82,6 @@ double NumSearchTrials(const BudgetOptions& budget, const std::vector<TrialEstim
 double ProposalTime(double num_trials) {
   constexpr double kSecondsPerTrialSquared = 0.003;
   return 0.5 * kSecondsPerTrialSquared * num_trials * num_trials;
-}
-
-std::string OneTrialText(const CampaignEstimate& e) {
-  const TrialEstimate& trial = e.trials.front();
-  return "  a trial           " + std::to_string(trial.num_grains) + " grains of " +
-         base::ShortNumber(1e3 * trial.mean_diameter) + " mm, " +
-         base::ShortNumber(std::round(trial.num_steps)) + " steps of " +
-         base::ShortNumber(1e6 * trial.time_step) + " us, " +
-         base::ShortNumber(std::round(1e-6 * trial.memory)) + " MB\n";
 }
 
 // What the budget would buy, if it were all spent on such trials.
@@ -169,6 +163,20 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
 
 }  // namespace
 
+RunEstimate EstimateRun(const rigs::Case& rig_case) {
+  RunEstimate run = SizeOfRun(rig_case);
+  run.core_seconds = run.grain_steps / MeasureSpeed(rig_case, run.num_grains);
+  return run;
+}
+
+std::string RunText(const RunEstimate& run) {
+  return std::to_string(run.num_grains) + " grains of " +
+         base::ShortNumber(1e3 * run.mean_diameter) + " mm, " +
+         base::ShortNumber(std::round(run.num_steps)) + " steps of " +
+         base::ShortNumber(1e6 * run.time_step) + " us, " +
+         base::ShortNumber(std::round(1e-6 * run.memory)) + " MB";
+}
+
 TrialEstimates EstimateTrials(const CampaignSpec& spec) {
   TrialEstimates e;
   for (int i = 0; i < static_cast<int>(ExperimentsOf(spec).size()); ++i) {
@@ -191,7 +199,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
   const int num_confirming = spec.confirm.MostTrials();
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
-  e.num_workers = LocalWorkers(spec, NumCores());
+  e.num_workers = MostAtATime(spec, NumCores());
   const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations
                                                     : spec.budget.core_time.value_or(0);
   e.proposal_time = ProposalTime(NumSearchTrials(spec.budget, e.trials));
@@ -199,9 +207,12 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   const bool is_here = spec.runner.kind == RunnerKind::kLocal;
   const int at_once =
       is_here ? std::clamp(NumCores() / CoresOfTrial(spec), 1, e.num_workers) : e.num_workers;
-  e.campaign_time = (std::min(search, spec.budget.core_time.value_or(search)) +
-                     e.confirm_time * num_confirming + e.proposal_time) /
-                    at_once;
+  // Proposals come one after another, and nothing is over before a trial and its confirmation.
+  const double in_turn =
+      (std::min(search, spec.budget.core_time.value_or(search)) + e.confirm_time * num_confirming) /
+      (at_once * spec.threads);
+  const double least = (dearest + (num_confirming > 0 ? e.confirm_time : 0)) / spec.threads;
+  e.campaign_time = std::max(in_turn, least) + e.proposal_time;
   return e;
 }
 
@@ -215,7 +226,7 @@ std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {
   const bool one = e.trials.size() == 1 && !spec.budget.core_time;
   const std::string speed = "  this machine      " + base::ShortNumber(1e-6 * e.grain_steps_per_s) +
                             " million grain steps a second on a core\n";
-  if (one) return OneTrialText(e) + speed + TimeText(e);
+  if (one) return "  a trial           " + RunText(e.trials.front()) + "\n" + speed + TimeText(e);
   return TrialLines(spec, e) + speed + "  time              at most " +
          trials::DurationText(e.campaign_time) + " with the confirmation and " +
          trials::DurationText(e.proposal_time) + " to choose trials, " +

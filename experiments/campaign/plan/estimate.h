@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/rigs/case/case.h"
 
 namespace talus::campaign {
 
-// A trial of one experiment at one scale factor.
-struct TrialEstimate {
-  int experiment = 0;
-  double scale_factor = 1;
+// One simulation.
+struct RunEstimate {
   std::int64_t num_grains = 0;
   double mean_diameter = 0;  // of the scaled grains, D50 by volume [m]
   double time_step = 0;      // [s]
@@ -20,6 +19,18 @@ struct TrialEstimate {
   double grain_steps = 0;   // less than their product: grains come and go
   double memory = 0;        // [bytes]
   double core_seconds = 0;  // [s] of one core
+};
+
+// Of a case by itself. Simulates for about a second of processor time.
+RunEstimate EstimateRun(const rigs::Case& rig_case);
+
+// "1013 grains of 1 mm, 2.423e+04 steps of 36.94 us, 17 MB"
+std::string RunText(const RunEstimate& run);
+
+// A trial of one experiment at one scale factor.
+struct TrialEstimate : RunEstimate {
+  int experiment = 0;
+  double scale_factor = 1;
 };
 
 struct CampaignEstimate {

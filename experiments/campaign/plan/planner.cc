@@ -12,10 +12,7 @@
 namespace talus::campaign {
 namespace {
 
-constexpr int kMostAsked = 8;   // the strategies' limit
-constexpr double kSame = 1e-3;  // of a candidate that is confirmed already
-// Confirmations after different searches must not share numbers.
-constexpr std::int64_t kMostCandidates = 1000;
+constexpr int kMostAsked = 8;  // the strategies' limit
 
 const char* NameOfOrigin(optimizer::Origin origin) {
   switch (origin) {
@@ -84,6 +81,7 @@ void Planner::CheckThatSomeSucceed(const std::string& last) {
 
 // Nor does a number teach anything that no set defines.
 void Planner::CheckThatNumbersAreDefined(int experiment) {
+  if (spec_.hold_out == ExperimentsOf(spec_)[static_cast<std::size_t>(experiment)].name) return;
   std::vector<const journal::TrialRecord*> done;
   for (const journal::TrialRecord& trial : trials_) {
     const bool ok = trial.status == journal::TrialStatus::kOk;
@@ -234,6 +232,7 @@ std::optional<Stop> Planner::WhyBudgetIsUsed() {
 }
 
 void Planner::LeaveCoresToTrials() const {
+  if (spec_.runner.kind != RunnerKind::kLocal) return base::SetMostLoopThreads(most_threads_);
   const auto num_running =
       std::count_if(trials_.begin(), trials_.end(), [](const journal::TrialRecord& trial) {
         return trial.status == journal::TrialStatus::kRunning;
@@ -320,81 +319,6 @@ std::vector<float> Planner::PredictedField(const Eigen::VectorXd& point, int exp
   const optimizer::ExperimentModel* model = ModelOf(experiment);
   if (model == nullptr || !model->has_image()) return {};
   return model->MeanImage(point);
-}
-
-std::vector<const journal::TrialRecord*> Planner::Confirming(const Eigen::VectorXd& candidate,
-                                                             int experiment) const {
-  const std::int64_t set = ConfirmSet(candidate);
-  std::vector<const journal::TrialRecord*> trials;
-  for (const journal::TrialRecord& trial : trials_) {
-    if (trial.kind == journal::TrialKind::kConfirm && trial.set == set &&
-        trial.experiment == experiment) {
-      trials.push_back(&trial);
-    }
-  }
-  return trials;
-}
-
-// A program of another version may recommend another set after the same search. What confirmed the
-// former one says nothing of it.
-std::int64_t Planner::ConfirmSet(const Eigen::VectorXd& candidate) const {
-  std::int64_t next = NumOfSearch() * kMostCandidates;
-  for (const journal::TrialRecord& trial : trials_) {
-    if (trial.kind != journal::TrialKind::kConfirm || trial.set / kMostCandidates != NumOfSearch())
-      continue;
-    if ((PointOf(trial) - candidate).lpNorm<Eigen::Infinity>() < kSame) return trial.set;
-    next = std::max(next, trial.set + 1);
-  }
-  return next;
-}
-
-Eigen::MatrixXd Planner::Region(const optimizer::PosteriorSummary& posterior) const {
-  const Eigen::MatrixXd& draws = posterior.draws;
-  const auto levels = CredibleLevels(draws);
-  if (!levels) return draws;
-  std::vector<Eigen::Index> inside;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if ((*levels)[i] <= kRegionLevel) inside.push_back(i);
-  }
-  return draws(inside, Eigen::all);
-}
-
-std::vector<Candidate> Planner::Candidates(const optimizer::Answer& answer) const {
-  if (spec_.confirm.candidates == 0) return {};
-  EqualSets equal{.region = {}, .asked = domain_.Asked()};
-  if (answer.posterior) equal.region = Region(*answer.posterior);
-  return CandidatesOf(answer, equal, spec_.confirm);
-}
-
-bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
-  const bool searching =
-      std::any_of(trials_.begin(), trials_.end(), [](const journal::TrialRecord& t) {
-        return IsOfSearch(t) && t.status == journal::TrialStatus::kRunning;
-      });
-  if (searching || spec_.confirm.candidates == 0) return false;
-  if (!candidates_) {
-    const auto answer = Recommend();
-    if (!answer) return false;
-    candidates_ = Candidates(*answer);
-  }
-  for (const Candidate& candidate : *candidates_) {
-    const std::int64_t set = ConfirmSet(candidate.point);
-    for (int e = 0; e < static_cast<int>(references_.size()); ++e) {
-      const auto done =
-          std::count_if(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
-            return t.kind == journal::TrialKind::kConfirm && t.set == set && t.experiment == e;
-          });
-      if (done >= spec_.confirm.replicates) continue;
-      journal::TrialRecord trial = Make(journal::TrialKind::kConfirm,
-                                        {.point = candidate.point,
-                                         .experiment = e,
-                                         .scale_factor = spec_.confirm.scale_factor.value_or(0)});
-      trial.set = set;
-      Append(std::move(trial), planned);
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace talus::campaign

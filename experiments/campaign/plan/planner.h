@@ -108,6 +108,8 @@ class Planner {
   void Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
   int Count(journal::TrialKind kind) const;
+  // Whether a trial is one of a confirmed set, by grains of the size that confirms now.
+  bool Confirms(const journal::TrialRecord& trial, std::int64_t set, int experiment) const;
   int NumOfSearch() const;  // that the strategies are told of, noise and reused ones included
   int NumPaidFor() const;   // … without the reused ones
   void CheckThatSomeSucceed(const std::string& last);  // reason of the trial that was just told

@@ -12,6 +12,11 @@ bool WasEndedByOthers(const runners::FinishedJob& job) {
          (job.end == runners::JobEnd::kExit && job.exit_status == base::kExitInterrupted);
 }
 
+void AddTimes(const runners::FinishedJob& job, journal::TrialRecord& trial) {
+  if (job.duration > 0) trial.duration_s += job.duration;
+  if (job.cpu_time > 0) trial.cpu_s += job.cpu_time;
+}
+
 std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder) {
   const std::string log = trials::LastLogLines(folder);
   return job.reason + (log.empty() ? "" : ": " + log);

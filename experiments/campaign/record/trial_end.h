@@ -17,6 +17,9 @@ namespace talus::campaign {
 // Ended from outside: says nothing of the parameters, and may go better next time.
 bool WasEndedByOthers(const runners::FinishedJob& job);
 
+// Counts one attempt's times among the trial's.
+void AddTimes(const runners::FinishedJob& job, journal::TrialRecord& trial);
+
 // "ended with exit status 1: last lines of its log"
 std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder);
 

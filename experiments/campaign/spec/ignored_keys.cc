@@ -56,6 +56,16 @@ void RefuseMassBesideFill(const CampaignSpec& spec, const std::vector<Experiment
                "stands beside powder.mass, which no test is filled with: give one of the two");
 }
 
+// A searched mass is that of every test.
+void RefuseOwnMass(const CampaignSpec& spec, base::Problems& problems) {
+  if (!spec.parameters || !spec.parameters->mass || !spec.experiments) return;
+  for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
+    problems.Require(!(*spec.experiments)[i].mass, "experiments[" + std::to_string(i) + "].mass",
+                     "stands beside parameters.mass, which every test is filled with: keep one of "
+                     "the two");
+  }
+}
+
 // What images are compared by; numbers alone are met by their errors.
 void RefuseObjective(const json& root, const CampaignSpec& spec,
                      const std::vector<ExperimentSpec>& all, base::Problems& problems) {
@@ -77,6 +87,7 @@ void RefuseIgnoredKeys(const base::JsonFile& file, const CampaignSpec& spec,
   if (spec.experiment.has_value() == spec.experiments.has_value()) return;  // that is said already
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   RefuseMassBesideFill(spec, all, problems);
+  RefuseOwnMass(spec, problems);
   RefuseObjective(root, spec, all, problems);
 }
 

@@ -126,7 +126,8 @@ void ValidateEnd(const engine::Material& material, const std::string& name, cons
   base::Problems of_material;
   at_end.Validate(of_material);
   for (const base::Problem& problem : of_material.list()) {
-    if (problem.path == property) problems.Add(end, problem.message);
+    if (problem.path != property) continue;
+    problems.Add({.path = end, .message = problem.message, .value = problem.value});
   }
 }
 

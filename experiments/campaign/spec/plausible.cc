@@ -17,10 +17,8 @@ namespace {
 
 using rigs::Observable;
 
-constexpr double kSolidFraction = 0.6;  // of a filled tube, roughly [-]
-constexpr double kMostDiameters = 50;   // height of the filling / tube diameter
-constexpr double kFewestGrains = 20;    // that could make a heap
-constexpr double kLooseFill = 1.02;     // of the mass filled: a balance is that good
+constexpr double kFewestGrains = 20;  // that could make a heap
+constexpr double kLooseFill = 1.02;   // of the mass filled: a balance is that good
 constexpr double kLargestHausner = 3;
 constexpr double kFastestFlow = 0.02;  // in which all that was filled runs out [s]
 
@@ -132,21 +130,6 @@ void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
                          " kg/m^3: one of the three has another unit");
 }
 
-// How high the powder stands in the tube, where each number by itself can be.
-void CheckHeight(const rigs::Powder& powder, double across, const std::string& path,
-                 base::Problems& problems) {
-  const double area = std::numbers::pi / 4 * across * across;
-  const double height = powder.mass / (kSolidFraction * powder.material.density * area);
-  if (!(height > kMostDiameters * across) || !(powder.material.density > 0)) return;
-  std::string text = "in kg, which stands " + base::ShortNumber(height) + " m high in a tube of " +
-                     base::ShortNumber(1e3 * across) + " mm";
-  // As grams it would fill the tube as usual.
-  text += height > across && height < 1e3 * kMostDiameters * across
-              ? "; write \"" + base::ShortNumber(powder.mass) + " g\" for grams"
-              : ": one of mass, density and tube has another unit";
-  problems.Require(false, path, powder.mass, text);
-}
-
 void CheckTube(const rigs::Device& device, const Place& place, base::Problems& problems) {
   RequirePlausible(BenchQuantity::kTubeDiameter, device.tube_inner_diameter,
                    place("device.tube_inner_diameter"), problems);
@@ -188,6 +171,12 @@ Surroundings Around(const CampaignSpec& spec, const rigs::Powder& powder, std::s
 
 }  // namespace
 
+double MostDensity(const CampaignSpec& spec) {
+  if (!spec.parameters || !spec.parameters->density) return spec.powder.material.density;
+  const auto& density = *spec.parameters->density;
+  return density.fixed.value_or(density.max);
+}
+
 double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
   if (spec.parameters && spec.parameters->mass) {
     const auto& mass = *spec.parameters->mass;
@@ -205,7 +194,7 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
     RequirePossible(e.numbers, place(""), problems);
     CheckStresses(e, place(""), problems);
-    CheckDensities(e.numbers, spec.powder.material.density, place, problems);
+    CheckDensities(e.numbers, MostDensity(spec), place, problems);
     rigs::Powder powder = spec.powder;
     powder.mass = MostMass(spec, e);
     const bool own_mass = spec.experiments && (*spec.experiments)[i].mass;
@@ -222,7 +211,6 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     if (problems.size() > before) continue;  // what is wrong by itself is said of itself
     RequireAgreeing(e, Around(spec, powder, place(""), mass), problems);
     CheckNumberOfGrains(powder, mass, problems);
-    if (is_tube) CheckHeight(powder, e.device->tube_inner_diameter, mass, problems);
   }
 }
 

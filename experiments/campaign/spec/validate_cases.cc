@@ -55,7 +55,7 @@ void AddToSpec(const CampaignSpec& spec, std::size_t e, const base::Problem& pro
   if (is_shared && std::ranges::count(problems.list(), key, &base::Problem::path) > 0) return;
   const std::string of =
       is_shared ? " (in the experiment \"" + (*spec.experiments)[e].name + "\")" : "";
-  problems.Add(key, problem.message + of);
+  problems.Add({.path = key, .message = problem.message + of, .value = problem.value});
 }
 
 // Whether the experiment's cases are in order, at every scale factor and point.

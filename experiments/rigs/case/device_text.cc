@@ -47,6 +47,13 @@ std::string PressureText(double value) {
                        : base::ShortNumber(value / kKilo) + " kPa";
 }
 
+// Drums turn at 2 rpm and more; a box that tilts by 10 deg/s, 1.7 rpm, is slower.
+std::string TurnText(double value) {
+  constexpr double kRpm = std::numbers::pi / 30;
+  return value < 1.99 * kRpm ? base::ShortNumber(180 / std::numbers::pi * value) + " deg/s"
+                             : base::ShortNumber(value / kRpm) + " rpm";
+}
+
 }  // namespace
 
 std::string QuantityText(double value, base::Dimension dimension) {
@@ -56,7 +63,7 @@ std::string QuantityText(double value, base::Dimension dimension) {
     case base::Dimension::kVelocity:
       return base::ShortNumber(1e2 * value) + " cm/s";
     case base::Dimension::kAngularVelocity:
-      return base::ShortNumber(30 / std::numbers::pi * value) + " rpm";
+      return TurnText(value);
     case base::Dimension::kAngle:
       return base::ShortNumber(180 / std::numbers::pi * value) + " deg";
     case base::Dimension::kTime:

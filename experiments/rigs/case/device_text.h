@@ -7,8 +7,8 @@
 
 namespace talus::rigs {
 
-// "84 mm", "10 rpm", "33 deg": in the unit of the bench, as inputs may have it; empty for what is
-// no length, speed, angle, time or stress.
+// "84 mm", "10 rpm", "10 deg/s", "33 deg": in the unit of the bench, as inputs may have it; empty
+// for what is no length, speed, angle, time or stress.
 std::string QuantityText(double value, base::Dimension dimension);
 
 // "drum: diameter 84 mm, width 14 mm, speed 10 rpm": lengths, speeds, angles, times and stresses of

@@ -16,6 +16,17 @@ std::string TextOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+// A result older than the command that wrote it is not taken for its own.
+void KeepTimes(const std::filesystem::path& from, const std::filesystem::path& to,
+               std::error_code& error) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(from, error)) {
+    if (!entry.is_regular_file()) continue;
+    const auto copy = to / std::filesystem::relative(entry.path(), from, error);
+    std::filesystem::last_write_time(copy, entry.last_write_time(error), error);
+    if (error) return;
+  }
+}
+
 }  // namespace
 
 void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
@@ -39,6 +50,7 @@ void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& 
   std::filesystem::remove_all(to, error);
   if (!error) std::filesystem::create_directories(to.parent_path(), error);
   if (!error) std::filesystem::copy(from, to, std::filesystem::copy_options::recursive, error);
+  if (!error) KeepTimes(from, to, error);
   if (error) throw base::Error(to.string() + ": cannot be made: " + error.message());
 }
 

@@ -189,9 +189,13 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
   }
   const std::string text = base::WithChecksum(base::JsonText(line) + "\n");
   const std::lock_guard guard(writing_);
-  if (::write(log_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    base::ThrowUnwritten(root_ / kLog, errno);
-  }
+  const off_t end = ::lseek(log_, 0, SEEK_END);
+  const ssize_t written = ::write(log_, text.data(), text.size());
+  if (written == static_cast<ssize_t>(text.size())) return;
+  const int error = written < 0 ? errno : ENOSPC;  // the disk has filled up within the line
+  // No line of another evaluation may follow half of this one.
+  [[maybe_unused]] const int shortened = ::ftruncate(log_, end);
+  base::ThrowUnwritten(root_ / kLog, error);
 }
 
 void OptimizeFolder::WriteResult(const std::string& json) const {

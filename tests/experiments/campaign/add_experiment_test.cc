@@ -10,6 +10,7 @@
 #include "base/files/file.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -17,6 +18,7 @@ namespace talus::campaign {
 namespace add_experiment_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 constexpr const char* kOne = R"(, "coarse_graining": {"scale_factors": [2, 1]},
@@ -228,6 +230,24 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   EXPECT_EQ(journal.Campaign().spec_json, spec);
   EXPECT_EQ(journal.Campaign().experiments.size(), 1u);
   EXPECT_EQ(base::ReadFile(folder / "campaign.json"), kept);
+}
+
+// It was to go on by the edited spec, though the test was refused.
+TEST_F(AddExperimentTest, WhatCannotBeAddedTakesNoEditedSpecOver) {
+  const fs::path folder = Ended();
+  const fs::path spec = scratch_.path() / "run_in" / "spec.json";
+  std::string text = base::ReadFile(spec);
+  text.replace(text.find("\"simulations\": 16"), 17, "\"simulations\": 18");
+  std::ofstream(spec) << text;
+  const std::string error = ErrorIn([&] {
+    Add(folder, Write(R"({"name": "tapped", "rig": {"kind": "tapped_density"},
+                          "tapped_density": {"value": 9000, "sd": 10}})"));
+  });
+  EXPECT_THAT(error, HasSubstr("tapped_density: is 9000"));
+  EXPECT_THAT(error, Not(HasSubstr("experiments[1]")));
+  const auto progress = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress();
+  EXPECT_EQ(progress.state, "finished");
+  EXPECT_EQ(LoadSpec(folder).budget.simulations, 16);
 }
 
 }  // namespace add_experiment_test

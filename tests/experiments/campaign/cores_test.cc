@@ -29,6 +29,18 @@ TEST(Cores, TrialsAtATimeAreAsManyAsFit) {
   EXPECT_EQ(LocalWorkers(own, 8), 4);
 }
 
+TEST(Cores, AQueueRunsAsManyTrialsAsItMayHold) {
+  CampaignSpec spec = WithRanks(0, 2, 2);
+  EXPECT_EQ(MostAtATime(spec, 8), 2);
+  spec.runner.kind = RunnerKind::kSlurm;
+  spec.runner.slurm.max_jobs = 20;
+  EXPECT_EQ(MostAtATime(spec, 8), 20);
+  spec.workers = 7;
+  EXPECT_EQ(MostAtATime(spec, 8), 7);
+  spec.workers = 200;
+  EXPECT_EQ(MostAtATime(spec, 8), 20);
+}
+
 TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
   EXPECT_FALSE(CoresWarning(WithRanks(2, 2, 2), 8).has_value());
   EXPECT_FALSE(CoresWarning(WithRanks(0, 8, 1), 8).has_value());

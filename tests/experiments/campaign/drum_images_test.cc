@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "base/json/json_file.h"
+#include "experiments/campaign/start.h"
 #include "imaging/formats/images/image_file.h"
 #include "tests/error_in.h"
 #include "tests/experiments/scratch_folder.h"
@@ -54,7 +56,12 @@ class DrumImages : public ::testing::Test {
   }
   // `more` are keys of the second experiment, whose series turns the other way.
   CampaignSpec Read(const std::string& more = "", bool fill_is_searched = true) const {
-    const std::string experiments = R"({"experiments": [
+    return ReadCampaignSpec(
+        base::ParseJson(SpecText(more, fill_is_searched), scratch_.path() / "spec.json"));
+  }
+  static std::string SpecText(const std::string& more, bool fill_is_searched,
+                              const std::string& first_keys = "") {
+    const std::string experiments = "{" + first_keys + R"("experiments": [
         {"name": "slow", "map": "map.png",
          "rig": {"kind": "drum", "diameter": "84 mm", "width": "20 mm", "speed": "15 rpm"}},
         {"name": "fast", "photos": "photos")" +
@@ -66,17 +73,14 @@ class DrumImages : public ::testing::Test {
                  "sizes": {"kind": "mono", "diameter": "1.2 mm"}},
       "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9})";
     const std::string fill = fill_is_searched ? R"(, "fill": {"min": 0.4, "max": 0.5}}})" : "}}";
-    return ReadCampaignSpec(
-        base::ParseJson(experiments + rest + fill, scratch_.path() / "spec.json"));
+    return experiments + rest + fill;
   }
   std::string ErrorOf(const std::string& more) const {
     return ErrorIn([&] { Read(more, false); });
   }
 
- private:
-  ScratchFolder scratch_;
-
  protected:
+  ScratchFolder scratch_;
   const fs::path hazy_ = scratch_.path() / "hazy.png";
   const fs::path photo_ = scratch_.path() / "photos/one.png";
 };
@@ -91,6 +95,25 @@ TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
 }
 
 // At 45 rpm and more powder may turn with its drum.
+// Without them half a drum was taken for what had been measured, and the change refused.
+TEST_F(DrumImages, TheFillStaysWhereThePhotographsAreGone) {
+  const fs::path spec = scratch_.path() / "spec.json";
+  const auto write = [&](int simulations) {
+    std::ofstream(spec) << SpecText(
+        "", false, R"("budget": {"simulations": )" + std::to_string(simulations) + "}, ");
+  };
+  write(9);
+  const fs::path folder = scratch_.path() / "run";
+  BeginCampaign(spec, folder);
+  fs::remove_all(scratch_.path() / "photos");
+  write(10);
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  const CampaignSpec going = OpenCampaign(folder, {}, console).spec;
+  EXPECT_EQ(going.budget.simulations, 10);
+  EXPECT_NEAR(going.experiments->at(1).rig->drum.fill.value(), 0.5, 0.02);
+  EXPECT_NE(going.experiments->at(1).rig->drum.fill.value(), 0.5);
+}
+
 TEST_F(DrumImages, PowderWithoutASurfaceSaysNoFill) {
   imaging::GrayImage ring = Draw(false);
   for (int y = 0; y < kSide; ++y) {
@@ -164,7 +187,8 @@ TEST_F(DrumImages, ErrorsSayWhatToDo) {
   EXPECT_EQ(ErrorOf(R"(, "turning": "counter-clockwise")"), "");
   EXPECT_THAT(
       ErrorOf(R"(, "circle_diameter": "80 mm")"),
-      HasSubstr("experiments[1].circle_diameter: is 0.08, must be from the rig's diameter"));
+      HasSubstr(
+          "experiments[1].circle_diameter: is 0.08 (\"80 mm\"), must be from the rig's diameter"));
   EXPECT_EQ(ErrorOf(R"(, "circle_diameter": "87 mm")"), "");
   EXPECT_THAT(ErrorOf(R"(, "pixel_size": "0.5 mm")"), HasSubstr("which are of heaps"));
   EXPECT_THAT(ErrorOf(R"(, "mass": 0)"), HasSubstr("experiments[1].mass: is 0, must be positive"));

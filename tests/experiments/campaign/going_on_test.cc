@@ -207,6 +207,25 @@ TEST_F(GoingOnTest, ATrialHasTakenWhatAllItsAttemptsTook) {
   EXPECT_GE(Trials(folder).at(0).duration_s, 0.4);
 }
 
+// Its confirmations were taken for those at the new scale factor, and simulated no more.
+TEST_F(GoingOnTest, GrainsOfAnotherSizeConfirmAnew) {
+  const auto keys = [](const std::string& confirm) {
+    return R"(, "budget": {"simulations": 10}, "workers": 1, "strategy": {"kind": "sobol"},
+      "coarse_graining": {"scale_factor": 2}, "confirm": {"candidates": 1, )" +
+           confirm + "}";
+  };
+  const fs::path folder = Begin(keys(R"("replicates": 2)"));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  WriteFakeSpec(scratch_.path() / "run_in", keys(R"("replicates": 3, "scale_factor": 1.5)"));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  int num_finer = 0;
+  for (const journal::TrialRecord& trial : Trials(folder)) num_finer += trial.scale_factor == 1.5;
+  EXPECT_EQ(num_finer, 3);
+  const Answer answer = ParseAnswer(base::ReadFile(folder / "result.json"));
+  EXPECT_EQ(answer.confirmed.at(0).scale_factor, 1.5);
+  EXPECT_EQ(answer.confirmed.at(0).experiments.at(0).num_trials, 3);
+}
+
 // Two processes would have written into one folder.
 class ToLocalTest : public runners::SlurmRunnerTest {};
 

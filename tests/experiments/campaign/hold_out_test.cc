@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
+#include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -117,6 +118,20 @@ TEST_F(HoldingOut, WhatCannotBeHeldOutIsSaid) {
       EXPECT_THAT(error.what(), HasSubstr("is no experiment; there are \"heap\", \"fast lift\""));
     }
   }
+}
+
+// It went on being held out, and the change was said to be one that may be made.
+TEST_F(HoldingOut, ASpecThatHoldsItOutNoLongerIsAnotherCampaign) {
+  const auto first = Begin("first");
+  const auto in = scratch_.path() / "first_in" / "spec.json";
+  const std::string without = base::ReadFile(in);
+  std::string with = without;
+  with.insert(with.find("\"budget\""), "\"hold_out\": \"fast lift\", ");
+  std::ofstream(in) << with;
+  const auto folder = scratch_.path() / "held";
+  BeginCampaign(in, folder);
+  std::ofstream(in) << without;
+  EXPECT_THAT(ErrorIn([&] { RunFake(folder, {}); }), HasSubstr("hold_out"));
 }
 
 using HoldingOneOut = CampaignFixture;

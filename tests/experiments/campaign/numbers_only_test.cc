@@ -188,8 +188,9 @@ TEST_F(NumbersOnly, WhatDoesNotFitTogetherIsOneClearError) {
   // The map shows a plate of 10 mm.
   std::string wide = kHeap;
   wide.insert(wide.size() - 1, R"(, "device": {"plate_diameter": "30 mm"})");
-  EXPECT_THAT(ErrorOf(wide), HasSubstr("experiments[0].plate_diameter: is 0.01, is not the "
-                                       "device's plate_diameter"));
+  EXPECT_THAT(ErrorOf(wide),
+              HasSubstr("experiments[0].plate_diameter: is 0.01 (\"10 mm\"), is not the "
+                        "device's plate_diameter"));
   std::string collapse = kHeap;
   collapse.insert(collapse.size() - 1, R"(, "rig": {"kind": "column_collapse"})");
   EXPECT_THAT(ErrorOf(collapse), HasSubstr("is not the width of the rig, 20"));

@@ -187,6 +187,14 @@ TEST_F(Priors, ANuisanceIsSearchedAndNotAskedFor) {
   EXPECT_THAT(ConsideredText(set), HasSubstr("restitution (nuisance): posterior 90 % in 0.3"));
 }
 
+// "nan … nan, does not matter"
+TEST(NuisanceTexts, WithoutAModelThereIsNoRange) {
+  ResultParameter p;
+  p.nuisance.emplace();
+  p.credible_low = p.credible_high = std::nan("");
+  EXPECT_EQ(NuisanceText(p, "restitution"), "restitution: no range without a model");
+}
+
 // Heaps whose slope follows the rolling friction, and a nuisance that the map determines: its
 // range says so, if the search goes on although nothing asked for gains by it. The mass that falls
 // does not depend on it.

@@ -1,11 +1,9 @@
 // Every key that result.json may have stands in docs/results.md.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-#include <string>
-
 #include "base/files/file.h"
 #include "experiments/campaign/answer/answer.h"
+#include "tests/experiments/documented_keys.h"
 
 namespace talus::campaign {
 namespace result_keys_test {
@@ -38,21 +36,12 @@ Answer FullAnswer() {
   return answer;
 }
 
-void ExpectKeysIn(const std::string& page, const nlohmann::json& json) {
-  for (const auto& [key, value] : json.items()) {
-    // What a strategy's rule holds is its own.
-    if (json.is_object()) {
-      EXPECT_NE(page.find('`' + key + '`'), std::string::npos) << key;
-    }
-    if (value.is_structured() && key != "rule") ExpectKeysIn(page, value);
-  }
-}
-
 TEST(ResultKeys, StandInTheDocs) {
-  const auto json = nlohmann::json::parse(AnswerJson(FullAnswer()), nullptr, false);
+  const auto json = nlohmann::ordered_json::parse(AnswerJson(FullAnswer()), nullptr, false);
   ASSERT_TRUE(json.contains("held_out"));
   ASSERT_TRUE(json["confirmed"][0]["experiments"][0]["scalars"][0].contains("undefined"));
-  ExpectKeysIn(base::ReadFile(TALUS_SOURCE_DIR "/docs/results.md"), json);
+  // What a strategy's rule holds is its own.
+  ExpectKeysIn(base::ReadFile(TALUS_SOURCE_DIR "/docs/results.md"), json, "rule");
 }
 
 }  // namespace result_keys_test

@@ -91,7 +91,7 @@ TEST(Experiments, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(ErrorOfExperiments(heap + R"(, "mass_fallen": {"value": "21 mg", "sd": 0}})"),
               HasSubstr("experiments[0].mass_fallen.sd: is 0, must be positive"));
   EXPECT_THAT(ErrorOfExperiments(heap + R"(, "device": {"plate_diameter": "30 mm"}})"),
-              HasSubstr("experiments[0].plate_diameter: is 0.01, is not the device's"));
+              HasSubstr("experiments[0].plate_diameter: is 0.01 (\"10 mm\"), is not the device's"));
   EXPECT_THAT(ErrorOfExperiments(""), HasSubstr("experiments: is empty"));
   EXPECT_THAT(ErrorOfExperiments(heap + "}", R"("experiment": {"map": "m.png",
                                                 "plate_diameter": "10 mm"},)"),

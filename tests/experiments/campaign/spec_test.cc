@@ -80,6 +80,33 @@ TEST(Spec, AnExperimentHasItsOwnMassAndItsRepeatedNumbers) {
   EXPECT_NEAR(fallen.standard_error, std::sqrt(7.0 / 3) * 1e-6, 1e-15);
 }
 
+// A test of 20 g was filled with the 1.6 g that are searched.
+TEST(Spec, ASearchedMassStandsBesideNoTestsOwn) {
+  const std::string error = ErrorOf(R"({
+    "experiments": [
+      {"name": "heap", "map": "a.png", "plate_diameter": "10 mm"},
+      {"name": "large", "mass": "1 g", "mass_fallen": {"values": ["18 mg", "23 mg", "22 mg"]}}],
+    "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "400 um"},
+               "mass": "0.5 g"},
+    "parameters": {"mass": {"min": "0.4 g", "max": "0.6 g"}}})");
+  EXPECT_THAT(error, HasSubstr("experiments[1].mass: stands beside parameters.mass"));
+}
+
+// Grains of 2500 kg/m³ cannot lie at 2600, but those that are searched may be heavier.
+TEST(Spec, ADensityIsHeldToTheHeaviestGrainsThatAreSearched) {
+  const auto with = [](const char* parameter) {
+    return std::string(R"({
+      "experiments": [{"name": "tapped", "rig": {"kind": "tapped_density"},
+                       "tapped_density": {"value": 2600, "sd": 20}}],
+      "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "400 um"},
+                 "mass": "20 g"},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5})") +
+           parameter + "}}";
+  };
+  EXPECT_THAT(ErrorOf(with("")), HasSubstr("must be below the grains' 2500"));
+  EXPECT_EQ(ErrorOf(with(R"(, "density": {"min": 2400, "max": 5000})")), "");
+}
+
 TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   const CampaignSpec spec = Read(With(R"("device": {"plate_material": {"restitution": 0.4}},
     "parameters": {
@@ -174,7 +201,7 @@ TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
       funnel_error("0 mm", "tube_sliding_friction"),
       HasSubstr("parameters.tube_sliding_friction: has no effect: no experiment's rig has a tube"));
   EXPECT_THAT(ErrorOf(With(R"("device": {"tube_length": "5 mm"})")),
-              HasSubstr("device.tube_length: is 0.005, cannot hold the mass"));
+              HasSubstr("device.tube_length: is 0.005 (\"5 mm\"), cannot hold the mass"));
   EXPECT_THAT(ErrorOf(With(R"("noise": {"replicates": 1})")), HasSubstr("noise.replicates: is 1"));
 }
 

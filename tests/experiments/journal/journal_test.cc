@@ -181,6 +181,15 @@ TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
   EXPECT_TRUE(std::isnan(row.Real(3)));
 }
 
+// A sum that began with what is not known stayed so, and no budget saw the trial.
+TEST_F(JournalTest, ATrialThatRunsHasTakenNothingSoFar) {
+  Journal journal = Journal::Create(File(), Campaign());
+  StartTrial(journal, 1);
+  const std::vector<TrialRecord> trials = journal.Trials();
+  EXPECT_EQ(trials.at(0).duration_s, 0);
+  EXPECT_EQ(trials.at(0).cpu_s, 0);
+}
+
 TEST_F(JournalTest, FinishedTrialsKeepTheirOrder) {
   {
     Journal journal = Journal::Create(File(), Campaign());

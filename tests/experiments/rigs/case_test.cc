@@ -94,16 +94,17 @@ TEST(Case, HashIgnoresWhatDoesNotChangeTheHeap) {
 }
 
 TEST(Case, EveryProblemIsListed) {
-  EXPECT_THAT(ErrorOf(R"({"powder": {"material": {"density": 2500, "poisson_ratio": 0.6},
+  EXPECT_THAT(
+      ErrorOf(R"({"powder": {"material": {"density": 2500, "poisson_ratio": 0.6},
                           "sizes": {"kind": "mono"}, "mass": -1},
                           "device": {"tube_inner_diameter": "12 mm"},
                           "rules": {"heap": {"hold_time": 0}}, "num_views": 0, "sead": 1})"),
-              AllOf(HasSubstr("powder.material.poisson_ratio"),
-                    HasSubstr("powder.sizes.diameter: is missing"),
-                    HasSubstr("powder.mass: is -1, must be positive"),
-                    HasSubstr("device.tube_inner_diameter: is 0.012, must not be above"),
-                    HasSubstr("rules.heap.hold_time"), HasSubstr("num_views"),
-                    HasSubstr("sead: is not known here; did you mean \"seed\"?")));
+      AllOf(HasSubstr("powder.material.poisson_ratio"),
+            HasSubstr("powder.sizes.diameter: is missing"),
+            HasSubstr("powder.mass: is -1, must be positive"),
+            HasSubstr("device.tube_inner_diameter: is 0.012 (\"12 mm\"), must not be above"),
+            HasSubstr("rules.heap.hold_time"), HasSubstr("num_views"),
+            HasSubstr("sead: is not known here; did you mean \"seed\"?")));
 }
 
 // It has no usual value, and what depends on it, from the time step to the mass, looks sound.
@@ -127,7 +128,7 @@ TEST(Case, ADeviceThatCannotHoldTheMassIsRefused) {
   "sizes": {"kind": "mono", "diameter": "0.5 mm"}, "mass": "1 g"})";
   EXPECT_EQ(ErrorOf("{" + powder + "}"), "");
   EXPECT_THAT(ErrorOf("{" + powder + R"(, "device": {"tube_length": "2 mm"}})"),
-              HasSubstr("device.tube_length: is 0.002, cannot hold the mass"));
+              HasSubstr("device.tube_length: is 0.002 (\"2 mm\"), cannot hold the mass"));
   EXPECT_THAT(ErrorOf("{" + powder + R"(, "coarse_graining": {"scale_factor": 8}})"),
               HasSubstr("must be above three (scaled) grain diameters"));
 }

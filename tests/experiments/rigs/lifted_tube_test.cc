@@ -225,7 +225,7 @@ TEST(LiftedTube, AFunnelThatWouldPourForHoursIsRefused) {
 TEST(LiftedTube, AMassThatWouldRunForHoursIsNamedByItself) {
   Case c = Poured(0.5, 0.2);
   c.filling.mouth_diameter = 2.1 * LargestDiameter(c);
-  c.powder.mass *= 300;
+  c.powder.mass *= 250;
   base::Problems problems;
   ValidateCase(c, problems);
   EXPECT_THAT(problems.Text(), ::testing::HasSubstr("powder.mass: is 0."));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "base/error.h"
@@ -345,6 +346,18 @@ TEST_F(CommandEngineTest, FolderWithOtherFilesIsLeftAlone) {
   std::ofstream(root_ / "trial/thesis.tex") << "x";
   EXPECT_THAT(FailureOf(), HasSubstr("holds other files"));
   EXPECT_TRUE(fs::exists(root_ / "trial/thesis.tex"));
+}
+
+// A result that was older than its command, by the order in which a folder was copied, was lost.
+TEST_F(CommandEngineTest, ACopiedTrialKeepsTheTimesOfItsFiles) {
+  const std::filesystem::path from = root_ / "from";
+  std::filesystem::create_directories(from / "inner");
+  std::ofstream(from / "inner" / "heap.csv") << "x";
+  const auto written =
+      std::filesystem::last_write_time(from / "inner" / "heap.csv") - std::chrono::hours(1);
+  std::filesystem::last_write_time(from / "inner" / "heap.csv", written);
+  CopyFolder(from, root_ / "to");
+  EXPECT_EQ(std::filesystem::last_write_time(root_ / "to" / "inner" / "heap.csv"), written);
 }
 
 // A deck that mixes the pair itself simulates another case than the one that is asked for.
