@@ -28,8 +28,10 @@ struct Answer {
 
   Eigen::VectorXd point;  // minimiser of the posterior mean, unit cube
   // NaN where there is no model that knows it.
-  double predicted_value = kUnknown;   // posterior mean there
-  double predicted_sd = kUnknown;      // posterior standard deviation of that mean
+  double predicted_value = kUnknown;  // posterior mean there
+  // Posterior standard deviation of that mean; 1.5 times it of a process of the values, which is
+  // overconfident alike here and in the ranges.
+  double predicted_sd = kUnknown;
   double noise_sd = kUnknown;          // noise sd of one evaluation there; 0 when deterministic
   std::vector<Range> credible;         // one a parameter, 90 % for all of them together
   Eigen::MatrixXd correlation;         // between parameters, of the posterior of the minimiser

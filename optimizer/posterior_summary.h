@@ -19,8 +19,8 @@ struct PosteriorBranch {
 
 // A number of an experiment, as the model expects it at a point and the target scale factor.
 struct NumberStanding {
-  double predicted = 0;     // mean over seeds, in the number's own unit
-  double predicted_sd = 0;  // of that mean
+  double predicted = 0;     // median over seeds, in the number's own unit
+  double predicted_sd = 0;  // of that median
 
   TALUS_FIELDS(predicted, predicted_sd);
 };

@@ -86,7 +86,6 @@ Minimum Minimize(const SearchFunction& function, const SearchTask& task) {
   search.best.point = task.start.cwiseMax(task.lower).cwiseMin(task.upper);
   SetUp(handle.get(), task);
   nlopt_set_min_objective(handle.get(), Callback, &search);
-  nlopt_srand(static_cast<unsigned long>(task.seed));
   Eigen::VectorXd x = search.best.point;
   double value = 0;
   const nlopt_result result = nlopt_optimize(handle.get(), x.data(), &value);

@@ -1,12 +1,11 @@
 // Minimises a function over a box by one of NLopt's algorithms. The only door to NLopt.
 //
-// Deterministic: stochastic algorithms take the task's seed, and the limits count evaluations,
-// never seconds. The best point seen is returned however the search ends, so an algorithm that
-// gives up on rounding errors is no failure.
+// Deterministic: no algorithm draws anything, and the limits count evaluations, never seconds. The
+// best point seen is returned however the search ends, so an algorithm that gives up on rounding
+// errors is no failure.
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <functional>
 
 namespace talus::surrogate {
@@ -27,7 +26,6 @@ struct SearchTask {
   double relative_tolerance = 0;  // stop when a step changes the value by less; 0: never
   double absolute_tolerance = 0;  // stop when a step changes a coordinate by less; 0: never
   double initial_step = 0;        // first step of the derivative-free ones; 0: NLopt's own choice
-  std::uint64_t seed = 1;
 };
 
 struct Minimum {

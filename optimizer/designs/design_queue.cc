@@ -9,7 +9,7 @@ namespace talus::optimizer {
 DesignQueue::DesignQueue(const Domain& domain, const Points& points) {
   for (const Eigen::VectorXd& point : domain.guesses) AppendSnapped(domain, point);
   for (const Eigen::VectorXd& point : points) {
-    if (domain.Contains(point)) AppendSnapped(domain, point);
+    if (domain.IsList() || domain.Contains(point)) AppendSnapped(domain, point);
   }
 }
 

@@ -13,8 +13,8 @@ namespace talus::optimizer {
 
 class DesignQueue {
  public:
-  // The domain's guesses, then those of `points` that the domain contains; at levels, or at
-  // candidates of a list, each once.
+  // The domain's guesses, then those of `points` that the domain contains, at levels; of a list the
+  // candidates nearest to all of them, each once.
   DesignQueue(const Domain& domain, const Points& points);
 
   void Append(const Eigen::VectorXd& point, bool is_evaluated);

@@ -37,8 +37,11 @@ double Crowding(const Eigen::MatrixXi& cells, Eigen::Index j) {
 Points LatinHypercube(int num_points, int num_parameters, std::uint64_t seed) {
   base::Random random(seed, base::Stream("latin hypercube"));
   Eigen::MatrixXi cells = RandomLatin(num_points, num_parameters, random);
-  // Enough for designs of some tens of points to settle; large ones are even without it.
-  const int num_exchanges = num_points < 2 ? 0 : std::min(400 * num_points, 20000);
+  // Enough for designs of some tens of points to settle; large ones are even without it, and each
+  // exchange costs them a distance to every point: a second of these at most.
+  constexpr int kMostDistances = 10000000;
+  const int num_exchanges =
+      num_points < 2 ? 0 : std::min({400 * num_points, 20000, kMostDistances / num_points});
   for (int e = 0; e < num_exchanges; ++e) {
     const auto n = static_cast<std::uint64_t>(num_points);
     const auto a = static_cast<Eigen::Index>(random.Below(n));

@@ -87,7 +87,11 @@ surrogate::GaussianProcessOptions OutputModel::OptionsFor(Eigen::Index output,
   surrogate::GaussianProcessOptions options{.trend = surrogate::Trend::kQuadratic,
                                             .deterministic = setup_.deterministic,
                                             .seed = setup_.seed};
-  if (setup_.deterministic) return options;
+  if (setup_.deterministic) {  // a prior a level: as many noises as there are levels
+    options.priors.noise.resize(static_cast<std::size_t>(setup_.levels.size()),
+                                options.priors.noise.front());
+    return options;
+  }
   const double next_sd = modes_.next_sd / setup_.levels.NoiseAtTarget(0);
   options.priors = surrogate::PriorsOfOutputs(
       output < num_modes() ? NoiseOfMode(setup_.levels, static_cast<int>(output), next_sd, spread)

@@ -71,8 +71,8 @@ class OutputModel {
   std::vector<Eigen::MatrixXd> DrawModes(const Eigen::MatrixXd& points, int num_draws,
                                          std::uint64_t seed) const;
 
-  // The coefficients of each distinct point from the others, in the order of
-  // GaussianProcess::points().
+  // The coefficients of each distinct point from the others, in the order in
+  // which they first appear.
   ModeMoments LeaveModesOut() const;
 
   // Each evaluation, predicted from the others, in its sd: one evaluation a row, one output a

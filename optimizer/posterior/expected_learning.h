@@ -38,7 +38,8 @@ struct LearningAim {
 // `draws`: equally likely, one a row, as many as the measurement's rows and two at least. Each of
 // some of them is taken for the truth in turn, its measurement drawn, and the others weighted by
 // it, with the posterior's own heavy tails. What a measurement tells more finely than the draws lie
-// apart hangs on the few that are near.
+// apart hangs on the few that are near: widths below the distance of neighbouring draws mean no
+// more than that they are below it.
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
                        std::uint64_t seed, const LearningAim& aim = {});
 

@@ -1,8 +1,7 @@
 // By how much the ranges of the parameters that are asked for narrow as the surrogate learns more.
 //
 //   p'(x) ∝ p(x) with the surrogate's mean of each output plus √(1 - λ) g, its variance times λ,
-//   and
-//           its caution that of as many more evaluations at the finest scale factor
+//           and its caution that of as many more evaluations at the finest scale factor
 //
 // λ is what more evaluations leave of the variance, 0 of a surrogate that is sure; g a draw of what
 // the mean may be off by now, some of which the widths are averaged over: as the surrogate learns,

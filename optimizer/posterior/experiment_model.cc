@@ -48,14 +48,14 @@ ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
   TakeForFinest(1);
   measured_ = Eigen::VectorXd::Zero(num_outputs());
   error_ = Eigen::VectorXd::Ones(num_outputs());
-  matched_ = Eigen::VectorXd::Ones(num_outputs());
+  unmatched_ = Eigen::VectorXd::Ones(num_outputs());
   if (has_image()) MeasureImages();
   MeasureScalars();
   SetModelError({.value = setup.model_error});
 }
 
 Eigen::VectorXd ExperimentModel::OpenWith(double model_error) const {
-  return error_ + model_error * model_error * matched_;
+  return error_ + model_error * model_error * unmatched_;
 }
 
 void ExperimentModel::SetModelError(const ModelError& model_error) {
@@ -93,11 +93,13 @@ void ExperimentModel::MeasureImages() {
     factor = (deviations + kPriorRuns) / (freedom + kPriorRuns);
     heaps = num_runs;
   }
-  matched_.head(num_modes) = std::max(0.25, factor) * noise;
-  error_.head(num_modes) = matched_.head(num_modes) / heaps;
+  // Runs that happen to agree do not make heaps reproducible.
+  constexpr double kLeastFactor = 0.25;
+  unmatched_.head(num_modes) = std::max(kLeastFactor, factor) * noise;
+  error_.head(num_modes) = unmatched_.head(num_modes) / heaps;
   // A share 1 - 1/n of the variance of n heaps lies among them and 1/n is their mean's.
   const Eigen::VectorXd element =
-      outputs_.ElementNoise() + modes.basis.cwiseAbs2() * (matched_.head(num_modes) - noise);
+      outputs_.ElementNoise() + modes.basis.cwiseAbs2() * (unmatched_.head(num_modes) - noise);
   objective_.emplace(setup_.code, target.image, modes, (1 - 1 / heaps) * element);
 }
 
@@ -109,7 +111,7 @@ void ExperimentModel::MeasureScalars() {
     const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
     measured_[k] = Compress(scalars[s], scalars[s].value);
     error_[k] = error * error;
-    matched_[k] = outputs_.TargetNoise(k);
+    unmatched_[k] = outputs_.TargetNoise(k);
   }
 }
 

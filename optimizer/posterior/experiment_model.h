@@ -164,9 +164,10 @@ class ExperimentModel {
   double num_finest_ = 0;  // evaluations at the finest scale factor
   double caution_ = 1;     // SurrogateCaution
   OutputModel outputs_;
-  Eigen::VectorXd measured_;  // each output
-  Eigen::VectorXd error_;     // variance of `measured_`
-  Eigen::VectorXd matched_;   // variance of an output that a model error of 1 adds
+  Eigen::VectorXd measured_;   // each output
+  Eigen::VectorXd error_;      // variance of `measured_`
+  Eigen::VectorXd unmatched_;  // variance of an output that a model error of 1 adds: what no
+                               // simulation can match
   ModelError model_error_;
   Eigen::VectorXd open_;  // B: variance that experiment and model leave, of each output
   std::optional<ImageFunctional> objective_;

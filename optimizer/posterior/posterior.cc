@@ -17,8 +17,8 @@ int NumCounted(const ExperimentModel& model) {
 
 // Residuals of all experiments side by side: a row for each set and scale factor, NaN where an
 // experiment was not simulated there. Replicates go to rows of their own.
-Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
-                      const std::vector<OutputData>& data) {
+Eigen::MatrixXd StackResiduals(const std::vector<ExperimentModel>& models,
+                               const std::vector<OutputData>& data) {
   Eigen::Index width = 0;
   for (const ExperimentModel& model : models) width += NumCounted(model);
   struct Place {
@@ -67,7 +67,7 @@ std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
 Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data,
                      Prior prior)
     : models_(std::move(models)),
-      misfit_(Stack(models_, data), TestOfOutputs(models_)),
+      misfit_(StackResiduals(models_, data), TestOfOutputs(models_)),
       prior_(std::move(prior)) {}
 
 // An experiment that is held out has none.

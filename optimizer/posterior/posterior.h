@@ -35,8 +35,8 @@ using ShiftBySet = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)>
 
 class Posterior {
  public:
-  // One model an experiment; `places` groups evaluations of different experiments at one
-  // set and scale factor (see posterior.cc).
+  // One model an experiment, and the evaluations it was made of; those of different experiments at
+  // one set and scale factor belong together.
   Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data,
             Prior prior = {});
 

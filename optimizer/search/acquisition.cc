@@ -30,7 +30,8 @@ LogH LogHAt(double z) {
     const double h = NormalDensity(z) + z * NormalProbability(z);
     return {.value = std::log(h), .slope = NormalProbability(z) / h};
   }
-  // h = φ (1 + z M): 1 + z M = Σ-free by M = 1/(t + 1/(t + 2/(t + …))): 1 - t M = M / (t + 2/(…)).
+  // h = φ (1 + z M), z = -t. With M = 1/(t + 1/r), r = t + 2/(t + 3/(t + …)), 1 - t M = M / r
+  // without cancellation.
   const double t = -z;
   double tail = t;
   for (int k = 12; k >= 2; --k) tail = t + k / tail;

@@ -13,6 +13,24 @@
 namespace talus::optimizer {
 namespace {
 
+// The domain less what more probably fails than works.
+Domain LikelyToWork(const Domain& domain, const Feasibility* feasibility) {
+  constexpr double kLikely = 0.5;
+  if (feasibility == nullptr || feasibility->always()) return domain;
+  Domain likely = domain;
+  likely.feasible = [feasibility, feasible = domain.feasible](const Eigen::VectorXd& x) {
+    return (!feasible || feasible(x)) && feasibility->Probability(x) >= kLikely;
+  };
+  if (!domain.IsList()) return likely;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < domain.candidates.rows(); ++i) {
+    if (likely.feasible(domain.candidates.row(i))) kept.push_back(i);
+  }
+  if (kept.empty()) return domain;  // no candidates at all would be the whole cube
+  likely.candidates = domain.candidates(kept, Eigen::all);
+  return likely;
+}
+
 // Candidates round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
 Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
   base::Random random(seed, base::Stream("around the answer"));
@@ -124,7 +142,8 @@ Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Domain& domain
                               static_cast<std::uint64_t>(round));
     const Eigen::MatrixXd moved = Inside(
         domain, Among(minimisers, static_cast<int>(first.rows() - first.rows() / 4), random));
-    minimisers = MinimisersAmong(model, Stack(FewOf(first, first.rows() / 4), moved), options);
+    const Eigen::Index num_first = std::max<Eigen::Index>(1, first.rows() / 4);
+    minimisers = MinimisersAmong(model, Stack(FewOf(first, num_first), moved), options);
   }
   return minimisers;
 }
@@ -213,8 +232,9 @@ std::string BoundText(const std::string& parameter, bool is_upper) {
   return parameter + " lies on its " + (is_upper ? "upper" : "lower") + " bound: widen its range";
 }
 
-Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
+Answer DescribeMinimum(const ObjectiveModel& model, const Domain& whole,
                        const Eigen::VectorXd& point, const AnswerOptions& options) {
+  const Domain domain = LikelyToWork(whole, options.feasibility);
   Answer answer;
   answer.point = point;
   const Moments at = model.Predict(point.transpose());
@@ -230,6 +250,10 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
   Include(point, answer.credible);
   answer.correlation = Correlation(minimisers);
   DescribeTies(model, domain, candidates, options, answer);
+  if (domain.IsList()) {
+    answer.tied_volume *= static_cast<double>(domain.candidates.rows()) /
+                          static_cast<double>(whole.candidates.rows());
+  }
   SobolIndices indices = EstimateSobolIndices(
       [&](const Eigen::MatrixXd& points) { return model.Predict(points).mean; },
       {.dimension = domain.num_parameters, .num_base = options.num_sobol, .seed = options.seed});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "optimizer/answer.h"
+#include "optimizer/search/feasibility.h"
 #include "optimizer/search/objective_model.h"
 #include "optimizer/space/domain.h"
 
@@ -20,6 +21,8 @@ struct AnswerOptions {
   int num_sobol = 512;            // base sample of the Sobol indices, > 1
   double confidence = 0.9;        // of the credible ranges together, in (0, 1)
   std::uint64_t seed = 1;
+  // Where evaluations more probably fail than work, no minimum is looked for; null: all work.
+  const Feasibility* feasibility = nullptr;
 };
 
 // `point` is the minimiser of the posterior mean. Fills everything but Answer::model.

@@ -23,7 +23,8 @@ class ImageHistory {
   int size() const { return static_cast<int>(values_.size()); }
 
   // A model of all evaluations; none while there are too few, or where a process of the values
-  // alone predicts them better, left out one by one.
+  // alone predicts them better, left out one by one: at all without noise, under noise where the
+  // images' error is more than 1.5 times that of the values.
   std::optional<ImageModel> Model(bool deterministic);
 
   // Which model was chosen and how well each predicts, in words. After Model.

@@ -71,11 +71,10 @@ ImageModel::ImageModel(std::shared_ptr<const surrogate::FieldCode> code,
                frozen == nullptr ? nullptr : &frozen->outputs),
       functional_(code_, objective, outputs_.modes(), Blur(outputs_, objective.num_target_heaps)),
       reconstruction_(FitReconstruction(data, options, frozen)),
+      deterministic_(options.deterministic),
       residuals_(Residuals(data, outputs_.modes())) {
   if (!objective_.target.empty()) target_ = code_->Encode(objective_.target);
 }
-
-int ImageModel::num_parameters() const { return static_cast<int>(outputs_.output(0).dimension()); }
 
 ImageState ImageModel::state() const {
   return {
@@ -271,6 +270,7 @@ Eigen::MatrixXd ImageModel::Draw(const Eigen::MatrixXd& points, int num_draws,
 }
 
 double ImageModel::NoiseSd(const Eigen::VectorXd& x) const {
+  if (deterministic_) return 0;
   const ModeMoments modes = outputs_.PredictModes(x.transpose());
   const double error = reconstruction_ ? reconstruction_->noise_variance() : 0;
   const double sd_of_draws = functional_.SdOfDraws({modes.mean.row(0), outputs_.ModeNoise()});

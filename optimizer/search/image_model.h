@@ -52,7 +52,6 @@ class ImageModel : public ObjectiveModel {
   ImageModel(std::shared_ptr<const surrogate::FieldCode> code, const FieldObjective& objective,
              const CodedImages& data, const ImageModelOptions& options, const ImageState* frozen);
 
-  int num_parameters() const override;
   double PredictionWork() const override;
   Moments Predict(const Eigen::MatrixXd& points) const override;
   // Draws of the objective to a target that is drawn too, within what is not known of it.
@@ -99,9 +98,9 @@ class ImageModel : public ObjectiveModel {
   };
   double LogImprovementAt(const Coefficients& at, const Goal& goal) const;
   double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
+  double ImageWork() const;  // multiplications of one image
   // Calls body(i) of each of `count` points or draws, which works out `num_images` images; several
   // at once.
-  double ImageWork() const;  // multiplications
   void ForEachPoint(Eigen::Index count, double num_images,
                     const std::function<void(Eigen::Index)>& body) const;
   surrogate::Predictions ReconstructionError(const Eigen::MatrixXd& points) const;
@@ -116,6 +115,7 @@ class ImageModel : public ObjectiveModel {
   OutputModel outputs_;
   ImageFunctional functional_;
   std::optional<surrogate::GaussianProcess> reconstruction_;
+  bool deterministic_ = false;
   Eigen::MatrixXd residuals_;  // what the modes leave of each evaluation, a row each
   Eigen::VectorXd target_;     // as the code writes it; empty without a target
 };

@@ -20,8 +20,6 @@ class ObjectiveModel {
  public:
   virtual ~ObjectiveModel() = default;
 
-  virtual int num_parameters() const = 0;
-
   // About how many multiplications the prediction of one point takes.
   virtual double PredictionWork() const { return 0; }
 
@@ -45,7 +43,8 @@ class ObjectiveModel {
   virtual Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
                                base::Random random) const = 0;
 
-  // Noise standard deviation of one evaluation at x; 0 when deterministic.
+  // Noise standard deviation of one evaluation at x; 0 when deterministic (TransformedModel: the
+  // process's floor).
   virtual double NoiseSd(const Eigen::VectorXd& x) const = 0;
 };
 

@@ -78,7 +78,8 @@ ScalarFit ScalarFitter::Fit(const History& history, bool deterministic, FitFor p
   return {
       transform,
       surrogate::GaussianProcess::Fit(
-          {.points = history.points, .values = Transformed(history.values, transform)}, options)};
+          {.points = history.points, .values = Transformed(history.values, transform)}, options),
+      deterministic};
 }
 
 void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, bool deterministic) {
@@ -126,6 +127,7 @@ Eigen::MatrixXd ScalarModel::Draw(const Eigen::MatrixXd& points, int num_draws,
 }
 
 double ScalarModel::NoiseSd(const Eigen::VectorXd& x) const {
+  if (fit_.deterministic) return 0;
   return std::sqrt(fit_.process.noise_variance()) *
          fit_.transform.BackwardSlope(fit_.process.Predict(x).mean);
 }

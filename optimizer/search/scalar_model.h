@@ -28,6 +28,7 @@ struct ValueTransform {
 struct ScalarFit {
   ValueTransform transform;
   surrogate::GaussianProcess process;
+  bool deterministic = false;  // the process's noise is a floor that keeps it solvable
 };
 
 // By what δ, or none at all, is chosen.
@@ -76,7 +77,6 @@ class ScalarModel : public ObjectiveModel {
   explicit ScalarModel(ScalarFit fit, double inflation = 1)
       : fit_(std::move(fit)), inflation_(inflation) {}
 
-  int num_parameters() const override { return static_cast<int>(fit_.process.dimension()); }
   Moments Predict(const Eigen::MatrixXd& points) const override;
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
                        base::Random random) const override;
@@ -92,7 +92,6 @@ class TransformedModel : public ObjectiveModel {
  public:
   explicit TransformedModel(surrogate::GaussianProcess process) : process_(std::move(process)) {}
 
-  int num_parameters() const override { return static_cast<int>(process_.dimension()); }
   Moments Predict(const Eigen::MatrixXd& points) const override;
   MomentsGradient PredictWithGradient(const Eigen::VectorXd& x) const override;
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,

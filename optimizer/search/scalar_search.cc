@@ -149,8 +149,9 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   const ScalarFit fit = fitter_.ServesBoth()
                             ? searched
                             : fitter_.Fit(record.history(), record.noise_free(), FitFor::kAnswer);
-  Answer answer = DescribeMinimum(ScalarModel(fit, kAnswerInflation), record.domain(), Best(record),
-                                  {.seed = record.options().seed});
+  Answer answer =
+      DescribeMinimum(ScalarModel(fit, kAnswerInflation), record.domain(), Best(record),
+                      {.seed = record.options().seed, .feasibility = &record.feasibility()});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();
   const double z = std::sqrt((error.square() / left_out.variance.array()).mean());

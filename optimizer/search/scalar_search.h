@@ -2,7 +2,8 @@
 //
 //   deterministic: expected improvement over the domain or in a region round the best point, or a
 //                  quadratic in such a region: the kind that has paid lately (step_choice.h)
-//   noisy:         noise-aware expected improvement
+//   noisy:         noise-aware expected improvement, from 20 evaluations on in turn with the
+//                  knowledge gradient
 //
 // Batches and pending points by the kriging believer: points under way are fantasised at their
 // predicted mean, hyper-parameters frozen.

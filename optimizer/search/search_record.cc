@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "optimizer/designs/design.h"
+#include "optimizer/designs/points_within.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/search/stopping_rule.h"
 #include "optimizer/space/point_rows.h"
@@ -16,7 +17,22 @@ namespace {
 // Two evaluations this close to each other teach under noise what a replicate would.
 constexpr double kReplicateDistance = 0.005;
 
-constexpr int kMostTries = 100000;
+constexpr int kMostTries = 10000;
+
+// Points that the domain, no list, contains, one a row; none where constraints leave next to none.
+Eigen::MatrixXd SomeWithin(const Domain& domain, std::uint64_t seed) {
+  constexpr int kNumCandidates = 1000;
+  constexpr int kFew = 20;
+  const Eigen::MatrixXd even =
+      Inside(domain, RSequence(kNumCandidates, domain.num_parameters, seed));
+  if (even.rows() > 0) return even;
+  const Points sobol = SobolInside(domain, kFew, seed);
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(sobol.size()), domain.num_parameters);
+  for (std::size_t i = 0; i < sobol.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = sobol[i];
+  }
+  return Inside(domain, points);
+}
 
 // A row of a table that is evaluated once has been spent on the design.
 int DesignSize(const Domain& domain, const SurrogateOptions& options) {
@@ -30,8 +46,10 @@ int DesignSize(const Domain& domain, const SurrogateOptions& options) {
 SearchRecord::SearchRecord(Domain domain, const SurrogateOptions& options)
     : domain_(std::move(domain)),
       options_(options),
-      design_(domain_,
-              LatinHypercube(DesignSize(domain_, options), domain_.num_parameters, options.seed)),
+      design_(domain_, PointsWithin(domain_,
+                                    LatinHypercube(DesignSize(domain_, options),
+                                                   domain_.num_parameters, options.seed),
+                                    options.seed)),
       history_(MakeHistory(told_, domain_.num_parameters)) {}
 
 void SearchRecord::Tell(const Observation& observation) {
@@ -55,6 +73,7 @@ std::optional<Proposal> SearchRecord::BeforeModel(std::span<const Eigen::VectorX
 std::optional<Eigen::VectorXd> SearchRecord::FirstRepeat(
     std::span<const Eigen::VectorXd> asked) const {
   if (options_.exact || repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
+  if (domain_.IsList() && options_.max_replicates < 2) return std::nullopt;  // each only once
   for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
     if (IsAmong(history_.points.row(i), asked)) return std::nullopt;  // the repeat is under way
   }
@@ -98,14 +117,11 @@ Domain SearchRecord::OpenDomain(std::span<const Eigen::VectorXd> asked) const {
 }
 
 Eigen::VectorXd SearchRecord::MostFeasible(std::span<const Eigen::VectorXd> asked) const {
-  constexpr int kNumCandidates = 1000;
   const Domain domain = OpenDomain(asked);
   Eigen::VectorXd best = Eigen::VectorXd::Constant(domain_.num_parameters, 0.5);
   double highest = -1;
   const Eigen::MatrixXd candidates =
-      domain.IsList()
-          ? domain.candidates
-          : Inside(domain, RSequence(kNumCandidates, domain_.num_parameters, StepSeed(asked)));
+      domain.IsList() ? domain.candidates : SomeWithin(domain, StepSeed(asked));
   for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
     const double probability = feasibility().Probability(candidates.row(i));
     if (probability <= highest) continue;
@@ -133,11 +149,7 @@ Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
   Eigen::VectorXd moved = point;
   double reach = 1e-3;
   for (int tries = 0; WasEvaluated(moved, asked) || !domain_.Contains(moved); ++tries) {
-    if (tries == kMostTries) {
-      throw base::Error(
-          "no point is found that was not evaluated: constraints or levels leave too little of the "
-          "ranges; widen them");
-    }
+    if (tries == kMostTries) return {Unevaluated(asked), Origin::kModel};
     for (Eigen::Index k = 0; k < moved.size(); ++k) {
       moved[k] = std::clamp(point[k] + reach * random.Normal(), 0.0, 1.0);
     }
@@ -145,6 +157,21 @@ Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
     reach = std::min(1.2 * reach, kFarthest);
   }
   return {moved, Origin::kModel};
+}
+
+// Where constraints are so narrow that steps near a point all leave them.
+Eigen::VectorXd SearchRecord::Unevaluated(std::span<const Eigen::VectorXd> asked) const {
+  const auto num_used = static_cast<int>(told_.size() + asked.size());
+  const Points sobol = SobolInside(domain_, num_used + 1, options_.seed);
+  for (const Eigen::VectorXd& one : sobol) {
+    const Eigen::VectorXd point = domain_.Snap(one);
+    if (domain_.Contains(point) && !WasEvaluated(point, asked)) return point;
+  }
+  throw base::ConfigError(
+      sobol.empty() ? "constraints: no point of the ranges is found that satisfies all of them: "
+                      "check their signs, or widen the ranges"
+                    : "no point is found that was not evaluated: constraints or levels leave too "
+                      "little of the ranges; widen them");
 }
 
 std::uint64_t SearchRecord::StepSeed(std::span<const Eigen::VectorXd> asked) const {

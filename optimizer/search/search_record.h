@@ -86,6 +86,8 @@ class SearchRecord {
  private:
   std::optional<Eigen::VectorXd> FirstRepeat(std::span<const Eigen::VectorXd> asked) const;
   bool HasFailed(const Eigen::VectorXd& point) const;
+  // Some point of a domain that is no list; base::ConfigError where there is none.
+  Eigen::VectorXd Unevaluated(std::span<const Eigen::VectorXd> asked) const;
 
   Domain domain_;
   SurrogateOptions options_;

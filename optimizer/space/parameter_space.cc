@@ -303,7 +303,22 @@ void ParameterSpace::AddLevels(Domain& domain) const {
   }
 }
 
-// Rows outside the ranges are no candidates.
+bool ParameterSpace::IsAtLevels(const Eigen::VectorXd& unit) const {
+  Eigen::Index k = 0;
+  for (const int i : Free()) {
+    const Parameter& parameter = parameters[static_cast<std::size_t>(i)];
+    const double at = unit[k++];
+    if (parameter.levels.empty()) continue;
+    if (std::ranges::none_of(parameter.levels, [&](double level) {
+          return std::abs(parameter.ToUnit(level) - at) <= kSamePoint;
+        })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Rows outside the ranges are no candidates, nor are those between the levels of a parameter.
 void ParameterSpace::AddTable(Domain& domain) const {
   std::vector<std::string> names;
   for (const int i : Free()) names.push_back(parameters[static_cast<std::size_t>(i)].name);
@@ -314,11 +329,12 @@ void ParameterSpace::AddTable(Domain& domain) const {
       unit[static_cast<Eigen::Index>(k)] =
           parameters[static_cast<std::size_t>(Free()[k])].ToUnit(row[k]);
     }
-    if (domain.Contains(unit) && !IsAmong(unit, kept)) kept.push_back(unit);
+    if (domain.Contains(unit) && IsAtLevels(unit) && !IsAmong(unit, kept)) kept.push_back(unit);
   }
   if (kept.empty()) {
-    throw base::ConfigError(candidates.string() +
-                            ": has no candidate within the ranges and constraints");
+    throw base::ConfigError(
+        candidates.string() +
+        ": has no candidate within the ranges and constraints, at levels where there are some");
   }
   domain.candidates.resize(static_cast<Eigen::Index>(kept.size()), domain.num_parameters);
   for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -124,6 +124,7 @@ struct ParameterSpace {
   void AddBeliefs(Domain& domain) const;
   void AddLevels(Domain& domain) const;
   void AddTable(Domain& domain) const;
+  bool IsAtLevels(const Eigen::VectorXd& unit) const;  // of parameters that have some
 };
 
 }  // namespace talus::optimizer

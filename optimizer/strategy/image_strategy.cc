@@ -195,7 +195,8 @@ Answer ImageStrategy::Recommend() {
                                    .num_draw_candidates = slow ? 80 : 300,
                                    .num_draws = slow ? 100 : 200,
                                    .num_sobol = slow ? 32 : 128,
-                                   .seed = record().options().seed});
+                                   .seed = record().options().seed,
+                                   .feasibility = &record().feasibility()});
   answer.left_out_share = fields_.left_out_share();
   answer.model = std::to_string(model_->num_modes()) + " modes of the images of " +
                  std::to_string(fields_.size()) + " evaluations, " +

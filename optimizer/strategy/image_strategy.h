@@ -1,7 +1,8 @@
 // The strategy for evaluations that bring a whole image: the images' modes are modelled instead of
 // the objective, and the objective is worked out on predicted images.
 //
-// While the images predict worse than the values alone (image_history.h) it steps by the values.
+// While the images predict worse than the values alone, under noise 1.5 times worse
+// (image_history.h), it steps by the values.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,6 @@ namespace talus::optimizer {
 
 class ImageStrategy : public SurrogateStrategy {
  public:
-  // `always`: never fall back to the values.
   ImageStrategy(const Domain& domain, const FieldObjective& objective,
                 const SurrogateOptions& options);
 

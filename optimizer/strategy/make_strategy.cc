@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "optimizer/designs/points_within.h"
 #include "optimizer/strategy/design_strategy.h"
 #include "optimizer/strategy/image_strategy.h"
 #include "optimizer/strategy/ranked_strategy.h"
@@ -19,19 +20,6 @@ constexpr int kUsualLevels = 8;
 std::vector<int> LevelsFor(const StrategyOptions& options, int num_parameters) {
   if (!options.levels.empty()) return options.levels;
   return std::vector<int>(static_cast<std::size_t>(num_parameters), kUsualLevels);
-}
-
-// As many points of the sequence as it takes until num_points are in the domain.
-Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
-  Points inside;
-  for (int n = num_points; static_cast<int>(inside.size()) < num_points && n < (1 << 20); n *= 2) {
-    inside.clear();
-    for (const Eigen::VectorXd& point : Sobol(n, domain.num_parameters, seed)) {
-      if (domain.Contains(point)) inside.push_back(point);
-      if (static_cast<int>(inside.size()) == num_points) break;
-    }
-  }
-  return inside;
 }
 
 bool HasModel(StrategyKind kind) {
@@ -144,7 +132,9 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
     }
     case StrategyKind::kLhs:
       return std::make_unique<DesignStrategy>(
-          domain, LatinHypercube(options.num_points, domain.num_parameters, seed),
+          domain,
+          PointsWithin(domain, LatinHypercube(options.num_points, domain.num_parameters, seed),
+                       seed),
           "the Latin hypercube");
     case StrategyKind::kSobol:
       return std::make_unique<DesignStrategy>(domain, SobolInside(domain, options.num_points, seed),

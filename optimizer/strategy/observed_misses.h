@@ -15,9 +15,9 @@ double MissOfNumbers(const Observation& one, const std::vector<ScalarTarget>& me
 
 // The evaluations with the miss of their point in place of the objective, the mean over the
 // experiments by their weights: of numbers as above, of an image the square of its objective over
-// the least one of its experiment. Behind all others
-// stand points that an experiment has not been evaluated at, and behind these those that it gives
-// nothing at, because it fails there or a number does not exist.
+// the least one of its experiment. Behind all others stand points that an experiment has not been
+// evaluated at, and behind these those that it gives nothing at, because it fails there or a number
+// does not exist.
 std::vector<Observation> WithMisses(std::span<const Observation> told,
                                     std::span<const ExperimentTarget> targets);
 

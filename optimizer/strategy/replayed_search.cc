@@ -106,7 +106,6 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
           .max_evaluations = kMaxEvaluations,
           .absolute_tolerance = options_.local ? kSmallestStep : 0,
           .initial_step = options_.local ? kFirstStep : 0,
-          .seed = seed_,
       };
       surrogate::Minimize(
           [&](const Eigen::VectorXd& x, Eigen::VectorXd*) { return memory.Answer(x); }, task);

@@ -35,8 +35,8 @@ class FieldCode {
 };
 
 // Column heights, then widths of the grey edge (column_edges.h), above the floor that the target
-// shows. Widths count 0.8 of heights, which
-// is what they change the sum of differences by: ∫|Φ(y) - Φ(y/(1+δ))| dy = δ √(2/π).
+// shows. Widths count 0.8 of heights, which is what they change the sum of differences by:
+// ∫|Φ(y) - Φ(y/(1+δ))| dy = δ √(2/π).
 class EdgeCode : public FieldCode {
  public:
   // `target` may be empty when no SAD is asked for.

@@ -18,9 +18,10 @@ namespace {
 GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
   const double centre = values.mean();
   const double sd = StandardDeviation(values);
-  const bool constant = !(sd > 1e-12 * std::abs(centre)) || sd == 0;
-  return {
-      .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};
+  if (sd > 1e-12 * std::abs(centre)) return {.hyper = {}, .centre = centre, .scale = sd};
+  // All the same: their own size is the only one there is, and zeros have none. A tiny scale would
+  // make the process certain everywhere.
+  return {.hyper = {}, .centre = centre, .scale = centre != 0 ? std::abs(centre) : 1};
 }
 
 // k(X, columns) → L⁻¹ k(X, columns), in blocks of columns that do not depend on the threads. One

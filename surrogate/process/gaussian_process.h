@@ -98,7 +98,7 @@ class GaussianProcess {
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws, base::Random random) const;
 
   // Each distinct point, with all its replicates, predicted from the others; the variance is that
-  // of its (mean) value, noise included. Rows as in points().
+  // of its (mean) value, noise included. Rows in order of first appearance.
   Predictions LeaveOneOut() const;
 
   // Adds one evaluation in O(n²); hyper-parameters, centre and scale stay.
@@ -111,8 +111,7 @@ class GaussianProcess {
   double LogPosterior() const;  // with the prior of the hyper-parameters, where they were fitted
   const GaussianProcessState& state() const { return state_; }
   Eigen::Index dimension() const { return data_.sites.columns.rows(); }
-  Eigen::Index num_points() const { return data_.size(); }  // distinct
-  Eigen::MatrixXd points() const { return data_.sites.columns.transpose(); }
+  Eigen::Index num_points() const { return data_.size(); }      // distinct
   const Eigen::VectorXi& first() const { return data_.first; }  // evaluation of each, from 0
   Eigen::VectorXd values() const;                               // means over replicates
 

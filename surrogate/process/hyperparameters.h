@@ -52,6 +52,7 @@ struct HyperPriors {
   // the other.
   double warp_sd = 1;
   // A coarse output follows the target's, or has lost some of it: e^-1 at one standard deviation.
+  // Normal about 0, so it may as well amplify it.
   double decay_sd = 1;
   // The shift varies as fast over the parameters as the output itself, within a factor of 2.
   LogNormal length_ratio{.median = 1, .log_sd = 0.7};

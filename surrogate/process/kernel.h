@@ -1,7 +1,6 @@
 // Stationary correlation functions ρ of the scaled squared distance q = Σ ((xₖ - x'ₖ) / ℓₖ)².
 //
 //   Matérn 5/2          ρ = (1 + s + s²/3) exp(-s),  s = √(5 q)     ρ' = -(5/6) (1 + s) exp(-s)
-//   Matérn 3/2          ρ = (1 + s) exp(-s),         s = √(3 q)     ρ' = -(3/2) exp(-s)
 //   squared exponential ρ = exp(-q / 2)                             ρ' = -ρ / 2
 //
 // ρ' = dρ/dq. Written in q, not in the distance, so that the slope is finite at zero distance.
@@ -12,7 +11,7 @@
 
 namespace talus::surrogate {
 
-enum class Kernel { kMatern52, kMatern32, kSquaredExponential };
+enum class Kernel { kMatern52, kSquaredExponential };
 
 struct Correlation {
   double value = 0;  // ρ [-]
@@ -25,11 +24,6 @@ inline Correlation CorrelationAt(Kernel kernel, double q) {
       const double s = std::sqrt(5 * q);
       const double decay = std::exp(-s);
       return {.value = (1 + s + s * s / 3) * decay, .slope = -5.0 / 6.0 * (1 + s) * decay};
-    }
-    case Kernel::kMatern32: {
-      const double s = std::sqrt(3 * q);
-      const double decay = std::exp(-s);
-      return {.value = (1 + s) * decay, .slope = -1.5 * decay};
     }
     case Kernel::kSquaredExponential:
       break;
@@ -46,10 +40,6 @@ inline Eigen::ArrayXd CorrelationsAt(Kernel kernel, const Eigen::ArrayXd& q) {
     case Kernel::kMatern52: {
       const Eigen::ArrayXd s = (5 * q).sqrt();
       return (1 + s + s * s / 3) * (-s).unaryExpr(exponential);
-    }
-    case Kernel::kMatern32: {
-      const Eigen::ArrayXd s = (3 * q).sqrt();
-      return (1 + s) * (-s).unaryExpr(exponential);
     }
     case Kernel::kSquaredExponential:
       break;

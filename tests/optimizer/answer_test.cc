@@ -17,7 +17,6 @@ class KnownBowl : public ObjectiveModel {
   KnownBowl(Eigen::VectorXd minimum, Eigen::VectorXd sd, double noise)
       : minimum_(std::move(minimum)), sd_(std::move(sd)), noise_(noise) {}
 
-  int num_parameters() const override { return static_cast<int>(minimum_.size()); }
   Moments Predict(const Eigen::MatrixXd& points) const override {
     const Eigen::VectorXd mean = (points.rowwise() - minimum_.transpose()).rowwise().squaredNorm();
     return {mean, Eigen::VectorXd::Constant(points.rows(), 0.01)};
@@ -84,6 +83,27 @@ TEST(Answer, WarnsOfBoundsAndKeepsToTheDomain) {
   EXPECT_TRUE(answer.warnings[1].is_upper);
   for (const Eigen::VectorXd& point : answer.tied) EXPECT_LE(point[0], 0.05);
   EXPECT_LE(answer.credible[0].high, 0.05);
+}
+
+// Every evaluation above x = 0.5 fails, and draws have their minima on both sides.
+TEST(Answer, RangesAndTiesStayWhereEvaluationsWork) {
+  const Eigen::Vector2d minimum(0.45, 0.5);
+  const KnownBowl model(minimum, Eigen::Vector2d(0.15, 0.05), 0.1);
+  const Eigen::MatrixXd points = RSequence(120, 2, 1);
+  std::vector<Eigen::Index> good, bad;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    (points(i, 0) > 0.5 ? bad : good).push_back(i);
+  }
+  const Feasibility feasibility(
+      History{.points = points(good, Eigen::all),
+              .values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(good.size())),
+              .failed = points(bad, Eigen::all)});
+  const Domain cube{.num_parameters = 2};
+  // The border of the success model is known to half the points' distance, 0.05.
+  const Answer answer = DescribeMinimum(model, cube, minimum, {.feasibility = &feasibility});
+  EXPECT_LT(answer.credible[0].high, 0.58);
+  for (const Eigen::VectorXd& point : answer.tied) EXPECT_LT(point[0], 0.58);
+  EXPECT_GT(DescribeMinimum(model, cube, minimum, {}).credible[0].high, 0.65);
 }
 
 // f = x + 2 y + 3 x z over the cube, worked out by hand: V_x = (1 + 3/2)²/12, V_y = 4/12,

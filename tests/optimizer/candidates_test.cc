@@ -143,6 +143,21 @@ TEST(Candidates, ANoisyListIsEvaluatedAtMostMaxReplicatesTimesEach) {
   EXPECT_EQ(told, 36);  // all used up, each three times
 }
 
+TEST(Candidates, ANoisyListOfOneReplicateIsEvaluatedOnceEach) {
+  const Domain domain{.num_parameters = 2, .candidates = RSequence(12, 2, 3)};
+  const auto strategy = MakeStrategy(
+      {.kind = StrategyKind::kGp, .stop_multiple = 0, .max_replicates = 1}, domain, nullptr, 1);
+  std::set<Eigen::Index> seen;
+  for (int told = 0; told < 12; ++told) {
+    const auto proposals = strategy->Ask(1, {});
+    ASSERT_EQ(proposals.size(), 1u);
+    const Eigen::VectorXd point = proposals.front().point;
+    EXPECT_TRUE(seen.insert(RowOf(domain.candidates, point)).second);
+    strategy->Tell({.point = point, .value = Bowl(point)});
+  }
+  EXPECT_TRUE(strategy->Ask(1, {}).empty());
+}
+
 TEST(Levels, ProposalsLieOnThemAndTheOtherParameterIsFree) {
   ParameterSpace space{.parameters = {{.name = "speed", .levels = {10, 20, 40, 70}},
                                       {.name = "mu", .low = 0, .high = 1}}};
@@ -213,6 +228,21 @@ TEST_F(Table, RowsInTheRangesAreTheCandidatesEachOnce) {
   ASSERT_EQ(domain.candidates.rows(), 2);
   EXPECT_NEAR((domain.candidates.row(0) - Eigen::RowVector2d(0.25, 0.5)).norm(), 0, 1e-12);
   EXPECT_NEAR((domain.candidates.row(1) - Eigen::RowVector2d(1, 1)).norm(), 0, 1e-12);
+}
+
+TEST_F(Table, RowsBetweenLevelsAreLeftOut) {
+  const std::string path = ::testing::TempDir() + "levels_test.csv";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return ParameterSpace{.parameters = {{.name = "mu", .low = 0, .high = 1},
+                                         {.name = "rpm", .levels = {10, 20, 50}}},
+                          .candidates = path}
+        .MakeDomain();
+  };
+  const Domain domain = read("mu,rpm\n0.5,20\n0.5,30\n1,50\n");
+  ASSERT_EQ(domain.candidates.rows(), 2);
+  EXPECT_NEAR((domain.candidates.row(0) - Eigen::RowVector2d(0.5, 0.25)).norm(), 0, 1e-12);
+  EXPECT_THROW(read("mu,rpm\n0.5,30\n"), base::ConfigError);
 }
 
 TEST_F(Table, ABadOneIsReportedWithFileAndLine) {

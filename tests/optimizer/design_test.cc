@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "optimizer/designs/points_within.h"
 #include "optimizer/designs/posterior_design.h"
 
 namespace talus::optimizer {
@@ -158,6 +159,18 @@ TEST(PosteriorDesign, IsCompleteWithinNarrowConstraints) {
   for (const Eigen::VectorXd& point : points) EXPECT_TRUE(domain.Contains(point));
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(domain.Contains(SobolWithin(domain, i, 3)));
   EXPECT_GT(SmallestDistance(points), 0);
+}
+
+// Of nine points of a hypercube one lay within, and a model was made of that and its repeat.
+TEST(PointsWithin, AreAsManyWithinConstraintsAsWithout) {
+  Domain domain{.num_parameters = 3};
+  const Points hypercube = LatinHypercube(9, 3, 5);
+  EXPECT_EQ(PointsWithin(domain, hypercube, 5), hypercube);
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() <= 0.7; };
+  const Points within = PointsWithin(domain, hypercube, 5);
+  ASSERT_EQ(within.size(), 9u);
+  for (const Eigen::VectorXd& point : within) EXPECT_TRUE(domain.Contains(point));
+  EXPECT_GT(SmallestDistance(within), 0);
 }
 
 }  // namespace design_test

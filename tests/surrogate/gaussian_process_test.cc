@@ -230,6 +230,9 @@ TEST(GaussianProcess, StaysFiniteForDuplicatesNeighboursAndConstantValues) {
       const PredictionGradient at = process.PredictWithGradient(place);
       EXPECT_NEAR(at.value.mean, value, 1e-6 * std::abs(value) + 1e-12);
       EXPECT_TRUE(at.mean.allFinite() && at.variance.allFinite());
+      if (!deterministic) {  // zeros make it no more certain than fives
+        EXPECT_GT(at.value.variance, 1e-12);
+      }
     }
     const auto process =
         GaussianProcess::Fit({points, Waves(points)}, {.deterministic = deterministic});
