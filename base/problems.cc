@@ -22,7 +22,8 @@ std::string Problems::FullPath(std::string_view path) const {
 
 std::string Problem::Text(std::string_view written) const {
   if (value.empty()) return message;
-  const std::string as_written = written.empty() ? "" : " (\"" + std::string(written) + "\")";
+  const bool says_more = !written.empty() && written != value;
+  const std::string as_written = says_more ? " (\"" + std::string(written) + "\")" : "";
   return "is " + value + as_written + ", " + message;
 }
 

@@ -234,7 +234,7 @@ class Progress(unittest.TestCase):
         # Nothing is written, so no line of a file is named.
         done = talus("init", photos, "--out", str(out), *[word.replace("1.602 g", "1.602 kg") for word in flags])
         self.assertEqual(done.returncode, 2)
-        self.assertTrue(done.stderr.startswith("--mass: is 1.602, in kg"), done.stderr)
+        self.assertTrue(done.stderr.startswith('--mass: is 1.602 ("1.602 kg"), in kg'), done.stderr)
         self.assertIn('write "1.602 g" for grams', done.stderr)
 
     # Their names say which heap each is of; once they made one heap of eighty views.
@@ -438,7 +438,8 @@ class Progress(unittest.TestCase):
         self.assertIn("write two points", done.stderr)
 
     def test_every_kind_of_input_file_is_validated(self):
-        for name, says in [("scenes/heap_case.json", "rig               lifted_tube"),
+        for name, says in [("scenes/heap_case.json", "rig               lifted tube: tube inner diameter 10 mm"),
+                           ("rigs/tilting_box.json", "rate 20 deg/s"), ("rigs/drum.json", "s of a core\n"),
                            ("scenes/bouncing_pair.json", "spheres           2"),
                            ("optimize/bowl.json", "is a problem for `talus optimize`")]:
             done = talus("validate", str(SOURCE / "examples" / name))

@@ -47,11 +47,12 @@ std::string PressureText(double value) {
                        : base::ShortNumber(value / kKilo) + " kPa";
 }
 
-// Drums turn at 2 rpm and more; a box that tilts by 10 deg/s, 1.7 rpm, is slower.
+// In rpm, unless deg/s make a rounder number: a box that tilts by 20 deg/s turns by 3.333 rpm.
 std::string TurnText(double value) {
-  constexpr double kRpm = std::numbers::pi / 30;
-  return value < 1.99 * kRpm ? base::ShortNumber(180 / std::numbers::pi * value) + " deg/s"
-                             : base::ShortNumber(value / kRpm) + " rpm";
+  constexpr std::size_t kRounder = 2;  // digits
+  const std::string rpm = base::ShortNumber(30 / std::numbers::pi * value);
+  const std::string degrees = base::ShortNumber(180 / std::numbers::pi * value);
+  return rpm.size() > degrees.size() + kRounder ? degrees + " deg/s" : rpm + " rpm";
 }
 
 }  // namespace

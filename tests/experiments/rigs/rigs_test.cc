@@ -322,8 +322,9 @@ TEST(RigOptions, OnlyTheKeysOfTheKindAreKnown) {
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "drum", "slot": "5 mm"}})").c_str()),
               HasSubstr("rig.slot: is not known here"));
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "barrel"}})").c_str()), HasSubstr("\"drum\""));
-  EXPECT_THAT(ErrorOf((powder + R"({"kind": "orifice_flow", "orifice": "40 mm"}})").c_str()),
-              HasSubstr("rig.orifice: is 0.04, must be below the diameter of the cylinder"));
+  EXPECT_THAT(
+      ErrorOf((powder + R"({"kind": "orifice_flow", "orifice": "40 mm"}})").c_str()),
+      HasSubstr("rig.orifice: is 0.04 (\"40 mm\"), must be below the diameter of the cylinder"));
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "funnel_heap"}})").c_str()),
               HasSubstr("must be \"pour\""));
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "funnel_heap", "camera": {"frames": 2,
