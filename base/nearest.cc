@@ -35,7 +35,7 @@ std::size_t DistanceBelow(std::size_t limit, std::string_view name, std::string_
 
 std::string Nearest(std::string_view name, std::span<const std::string> known) {
   std::string best;
-  // Of a name whose letters are all wrong nothing is meant.
+  // A name whose letters are all wrong means none of them.
   std::size_t best_distance = std::min(name.size(), std::max<std::size_t>(2, name.size() / 3) + 1);
   for (const std::string& candidate : known) {
     const std::size_t distance = DistanceBelow(best_distance, name, candidate);

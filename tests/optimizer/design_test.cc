@@ -161,7 +161,7 @@ TEST(PosteriorDesign, IsCompleteWithinNarrowConstraints) {
   EXPECT_GT(SmallestDistance(points), 0);
 }
 
-// Of nine points of a hypercube one lay within, and a model was made of that and its repeat.
+// One of nine points of a hypercube lay within, and a model was made of that and its repeat.
 TEST(PointsWithin, AreAsManyWithinConstraintsAsWithout) {
   Domain domain{.num_parameters = 3};
   const Points hypercube = LatinHypercube(9, 3, 5);

@@ -21,7 +21,7 @@ struct RunEstimate {
   double core_seconds = 0;  // [s] of one core
 };
 
-// Of a case by itself. Simulates for about a second of processor time.
+// What a case takes by itself. Simulates for about a second of processor time.
 RunEstimate EstimateRun(const rigs::Case& rig_case);
 
 // "1013 grains of 1 mm, 2.423e+04 steps of 36.94 us, 17 MB"

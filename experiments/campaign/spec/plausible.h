@@ -8,7 +8,7 @@
 
 namespace talus::campaign {
 
-// Of the grains, at most: the largest that is searched, or the material's [kg/m³].
+// The grains' density, at most: the largest that is searched, or the material's [kg/m³].
 double MostDensity(const CampaignSpec& spec);
 
 // Filled in, at most: the largest that is searched, or the experiment's; 0 where that is not known

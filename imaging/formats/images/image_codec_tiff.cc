@@ -80,7 +80,7 @@ RawImage EmptyImage(const TiffLayout& layout, int channels, int bits) {
   return image;
 }
 
-// What of a pixel's samples counts: the colours come first, its alpha among what follows.
+// Which samples of a pixel count: the colours come first, its alpha among what follows.
 struct CountedSamples {
   std::size_t num_colors = 1;
   std::optional<std::size_t> alpha{};  // which sample

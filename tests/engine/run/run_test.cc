@@ -31,7 +31,7 @@ TEST(RunCheckpoint, IsReadBackWhole) {
   EXPECT_EQ(again.simulation, kCheckpoint.simulation);
 }
 
-// Of a full-scale bed it was there four times at once.
+// A full-scale bed's was there four times at once.
 TEST(RunCheckpoint, IsPackedWhereItIs) {
   constexpr std::size_t kSize = std::size_t{64} << 20;
   RunCheckpoint large = kCheckpoint;
