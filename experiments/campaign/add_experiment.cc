@@ -45,12 +45,8 @@ void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
   SetDrumDiameters(spec);
   base::Problems found;
   CheckSpec(spec, found);
-  const std::string place = "experiments[" + std::to_string(spec.experiments->size() - 1) + "].";
   base::Problems problems(file.string(), base::ReadJsonFile(file).places);
-  for (base::Problem problem : found.list()) {
-    if (problem.path.starts_with(place)) problem.path.erase(0, place.size());
-    problems.Add(std::move(problem));
-  }
+  AddByOwnKeys(found, spec, problems);
   problems.ThrowIfAny();
 }
 

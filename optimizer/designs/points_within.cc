@@ -18,6 +18,12 @@ Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
   return inside;
 }
 
+Eigen::VectorXd SobolPoint(const Domain& domain, int index, std::uint64_t seed) {
+  const Points inside = SobolInside(domain, index + 1, seed);
+  if (inside.empty()) return Sobol(index + 1, domain.num_parameters, seed).back();
+  return inside[static_cast<std::size_t>(index) % inside.size()];
+}
+
 Points PointsWithin(const Domain& domain, const Points& points, std::uint64_t seed) {
   if (!domain.feasible || domain.IsList()) return points;
   Points within;

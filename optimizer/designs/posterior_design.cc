@@ -51,13 +51,4 @@ Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed) {
   return points;
 }
 
-Eigen::VectorXd SobolWithin(const Domain& domain, int index, std::uint64_t seed) {
-  if (!domain.feasible) return Sobol(index + 1, domain.num_parameters, seed).back();
-  const Points all = Sobol(index + kMostTried, domain.num_parameters, seed);
-  Points within;
-  AppendThoseWithin(domain, all, index + 1, within);
-  if (within.empty()) return all.back();
-  return within[static_cast<std::size_t>(index) % within.size()];
-}
-
 }  // namespace talus::optimizer

@@ -17,8 +17,4 @@ int PosteriorDesignSize(const Domain& domain);
 // constraints leave too few of these.
 Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed);
 
-// The index-th, from 0, of Sobol's points in the domain; they begin anew where the first few
-// thousand hold no more. Any point where these hold none.
-Eigen::VectorXd SobolWithin(const Domain& domain, int index, std::uint64_t seed);
-
 }  // namespace talus::optimizer

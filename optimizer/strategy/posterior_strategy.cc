@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/random.h"
+#include "optimizer/designs/points_within.h"
 #include "optimizer/designs/posterior_design.h"
 #include "optimizer/outputs/output_model.h"
 #include "optimizer/posterior/learn_model_errors.h"
@@ -250,7 +251,7 @@ Proposal PosteriorStrategy::Next(std::span<const Proposal> asked) {
   if (CanModel()) return ByGain(asked);
   // Most of the design has failed: more of the same.
   const int index = static_cast<int>(observations_.size() + asked.size());
-  const Eigen::VectorXd point = SobolWithin(domain_, index, options_.seed);
+  const Eigen::VectorXd point = SobolPoint(domain_, index, options_.seed);
   return {.point = point,
           .origin = Origin::kDesign,
           .experiment = index % static_cast<int>(targets_.size()),

@@ -157,7 +157,7 @@ TEST(PosteriorDesign, IsCompleteWithinNarrowConstraints) {
   const Points points = PosteriorDesign(domain, size, 3);
   ASSERT_EQ(static_cast<int>(points.size()), size);
   for (const Eigen::VectorXd& point : points) EXPECT_TRUE(domain.Contains(point));
-  for (int i = 0; i < 50; ++i) EXPECT_TRUE(domain.Contains(SobolWithin(domain, i, 3)));
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(domain.Contains(SobolPoint(domain, i, 3)));
   EXPECT_GT(SmallestDistance(points), 0);
 }
 

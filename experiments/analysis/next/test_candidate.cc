@@ -87,12 +87,7 @@ void ValidateAsAdded(const campaign::JointView& view, const TestCandidate& test,
   campaign::ValidateMeasured(made, numbers, place, found);
   campaign::ValidateNeeds(made, numbers, place, found);
   if (found.empty()) campaign::ValidateCases(spec, found);
-  for (const base::Problem& problem : found.list()) {
-    const bool own = problem.path.starts_with(place + ".");
-    problems.Add({.path = own ? problem.path.substr(place.size() + 1) : problem.path,
-                  .message = problem.message,
-                  .value = problem.value});
-  }
+  campaign::AddByOwnKeys(found, spec, problems);
 }
 
 }  // namespace

@@ -142,8 +142,9 @@ std::string Answer(const SearchFolder& search) {
   const SearchAnswer& answer = *search.answer;
   std::string text = AnswerTable(search);
   text += "<p>Predicted value " + Print(answer.predicted_value) + " ± " +
-          Print(answer.predicted_sd) + " (standard deviation); noise sd of one evaluation " +
-          Print(answer.noise_sd) + ". ";
+          Print(answer.predicted_sd) + " (standard deviation); " +
+          (answer.noise_sd == 0 ? "evaluations without noise. "
+                                : "noise sd of one evaluation " + Print(answer.noise_sd) + ". ");
   if (const SearchEvaluation* best = BestOf(search)) {
     text += "Lowest value seen: " + Print(*best->value) + ", by evaluation " +
             std::to_string(best->number) + ". ";

@@ -84,7 +84,7 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, const Pace& pa
 // since the search ended.
 double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace,
                         std::span<const journal::TrialRecord> begun) {
-  const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
+  const double factor = spec.ConfirmScaleFactor();
   double left = 0;
   for (int e = 0; e < pace.num_experiments; ++e) {
     const auto ended = std::ranges::count_if(begun, [&](const journal::TrialRecord& trial) {

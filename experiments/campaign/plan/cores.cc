@@ -26,6 +26,11 @@ int AtATime(const CampaignSpec& spec, int under_way) {
   return std::min(under_way, LocalWorkers(spec, NumCores()));
 }
 
+int CoresTaken(const CampaignSpec& spec, int under_way) {
+  if (spec.runner.kind != RunnerKind::kLocal) return 0;
+  return AtATime(spec, under_way) * CoresOfTrial(spec);
+}
+
 std::optional<std::string> CoresWarning(const CampaignSpec& spec, int num_cores) {
   if (spec.runner.kind != RunnerKind::kLocal) return std::nullopt;
   const int each = CoresOfTrial(spec);

@@ -24,6 +24,9 @@ int MostAtATime(const CampaignSpec& spec, int num_cores);
 // told.
 int AtATime(const CampaignSpec& spec, int under_way);
 
+// Cores of this machine that so many trials under way take: none where a queue runs them.
+int CoresTaken(const CampaignSpec& spec, int under_way);
+
 // In words, where trials on this machine take more cores than it has.
 std::optional<std::string> CoresWarning(const CampaignSpec& spec, int num_cores);
 

@@ -58,7 +58,7 @@ TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double sca
 
 // [s] of one candidate's replicate, at every experiment.
 double ConfirmTime(const CampaignSpec& spec, double speed) {
-  const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
+  const double factor = spec.ConfirmScaleFactor();
   double time = 0;
   for (int e = 0; e < static_cast<int>(ExperimentsOf(spec).size()); ++e) {
     time += EstimateTrial(spec, e, factor).grain_steps / speed;

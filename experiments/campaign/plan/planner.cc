@@ -232,13 +232,11 @@ std::optional<Stop> Planner::WhyBudgetIsUsed() {
 }
 
 void Planner::LeaveCoresToTrials() const {
-  if (spec_.runner.kind != RunnerKind::kLocal) return base::SetMostLoopThreads(most_threads_);
   const auto num_running =
       std::count_if(trials_.begin(), trials_.end(), [](const journal::TrialRecord& trial) {
         return trial.status == journal::TrialStatus::kRunning;
       });
-  base::SetMostLoopThreads(most_threads_ -
-                           AtATime(spec_, static_cast<int>(num_running)) * CoresOfTrial(spec_));
+  base::SetMostLoopThreads(most_threads_ - CoresTaken(spec_, static_cast<int>(num_running)));
 }
 
 bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {

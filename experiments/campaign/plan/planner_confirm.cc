@@ -15,9 +15,7 @@ constexpr std::int64_t kMostCandidates = 1000;
 
 bool Planner::Confirms(const journal::TrialRecord& trial, std::int64_t set, int experiment) const {
   return trial.kind == journal::TrialKind::kConfirm && trial.set == set &&
-         trial.experiment == experiment &&
-         trial.scale_factor ==
-             spec_.confirm.scale_factor.value_or(spec_.coarse_graining.scale_factor);
+         trial.experiment == experiment && trial.scale_factor == spec_.ConfirmScaleFactor();
 }
 
 std::vector<const journal::TrialRecord*> Planner::Confirming(const Eigen::VectorXd& candidate,

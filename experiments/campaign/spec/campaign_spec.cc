@@ -198,6 +198,14 @@ bool CampaignSpec::HasOwnProposer() const {
   return strategy.kind != optimizer::StrategyKind::kAuto;
 }
 
+void AddByOwnKeys(const base::Problems& found, const CampaignSpec& spec, base::Problems& problems) {
+  const std::string place = "experiments[" + std::to_string(spec.experiments->size() - 1) + "].";
+  for (base::Problem problem : found.list()) {
+    if (problem.path.starts_with(place)) problem.path.erase(0, place.size());
+    problems.Add(std::move(problem));
+  }
+}
+
 std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
   std::vector<ExperimentSpec> list = spec.experiments.value_or(std::vector<ExperimentSpec>{});
   if (spec.experiment) {

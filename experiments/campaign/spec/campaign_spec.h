@@ -113,6 +113,11 @@ struct CampaignSpec {
 
   // Whether another strategy than the calibration's own chooses the trials.
   bool HasOwnProposer() const;
+
+  // Of the simulations that confirm.
+  double ConfirmScaleFactor() const {
+    return confirm.scale_factor.value_or(coarse_graining.scale_factor);
+  }
 };
 
 // Reads, completes and validates a spec; throws one ConfigError with every problem.
@@ -120,6 +125,9 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 
 // A spec that was not read from one file: every problem of it.
 void CheckSpec(const CampaignSpec& spec, base::Problems& problems);
+
+// Problems of a spec, those of its last experiment by the keys of the experiment itself.
+void AddByOwnKeys(const base::Problems& found, const CampaignSpec& spec, base::Problems& problems);
 
 // What shows only when the cases of a spec are put together, such as a tube that cannot hold the
 // mass.

@@ -41,6 +41,16 @@ TEST(Cores, AQueueRunsAsManyTrialsAsItMayHold) {
   EXPECT_EQ(MostAtATime(spec, 8), 20);
 }
 
+// The loops of a strategy take the others.
+TEST(Cores, TrialsTakeTheirCoresHereButNoneOfAQueue) {
+  CampaignSpec spec = WithRanks(3, 2, 2);
+  EXPECT_EQ(CoresTaken(spec, 0), 0);
+  EXPECT_EQ(CoresTaken(spec, 2), 8);
+  EXPECT_EQ(CoresTaken(spec, 5), 12);  // two of them wait
+  spec.runner.kind = RunnerKind::kSlurm;
+  EXPECT_EQ(CoresTaken(spec, 5), 0);
+}
+
 TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
   EXPECT_FALSE(CoresWarning(WithRanks(2, 2, 2), 8).has_value());
   EXPECT_FALSE(CoresWarning(WithRanks(0, 8, 1), 8).has_value());
