@@ -70,11 +70,17 @@ std::string KnownText(const ConsideredParameter& p) {
   return text + "\n";
 }
 
+// Of an experiment; null where the campaign has none of that name.
+const journal::ExperimentRecord* RecordOf(const ConsideredSet& c, const std::string& name) {
+  const auto record = std::ranges::find(c.records, name, &journal::ExperimentRecord::name);
+  return record != c.records.end() ? &*record : nullptr;
+}
+
 // "    mass fallen 10.3 mg ± 0.5 predicted, 5.1 mg ± 0.7 measured"
 std::string NumbersText(const ConsideredSet& c, const ResultStanding& standing) {
-  const auto record = std::ranges::find(c.records, standing.name, &journal::ExperimentRecord::name);
+  const journal::ExperimentRecord* record = RecordOf(c, standing.name);
   std::string text;
-  for (std::size_t i = 0; record != c.records.end() && i < standing.numbers.size(); ++i) {
+  for (std::size_t i = 0; record != nullptr && i < standing.numbers.size(); ++i) {
     const journal::ScalarRecord& measured = record->scalars.at(i);
     const auto shown = [&](double value) { return rigs::ShownNumber(measured.name, value); };
     text += "    " + rigs::SpokenName(measured.name) + " " + shown(standing.numbers[i].predicted) +
@@ -82,6 +88,19 @@ std::string NumbersText(const ConsideredSet& c, const ResultStanding& standing) 
             shown(measured.value) + " ± " + shown(measured.standard_error) + " measured\n";
   }
   return text;
+}
+
+// As ResultStanding's, and what was measured of each number.
+nlohmann::ordered_json StandingJson(const ConsideredSet& c, const ResultStanding& standing) {
+  nlohmann::ordered_json json = base::ToJson(standing);
+  const journal::ExperimentRecord* record = RecordOf(c, standing.name);
+  for (std::size_t i = 0; record != nullptr && i < standing.numbers.size(); ++i) {
+    const journal::ScalarRecord& measured = record->scalars.at(i);
+    json["numbers"][i].update({{"name", measured.name},
+                               {"measured", measured.value},
+                               {"measured_sd", measured.standard_error}});
+  }
+  return json;
 }
 
 std::string NearText(const ConsideredSet& c, const NearTrial& near) {
@@ -213,7 +232,10 @@ std::string ConsideredJson(const ConsideredSet& c) {
       c.credible_level ? nlohmann::ordered_json(*c.credible_level) : nlohmann::ordered_json();
   json["surrogate_narrowing"] = c.surrogate_narrowing;
   json["objective_unit"] = c.objective_unit;
-  json["experiments"] = base::ToJson(c.experiments);
+  json["experiments"] = nlohmann::ordered_json::array();
+  for (const ResultStanding& standing : c.experiments) {
+    json["experiments"].push_back(StandingJson(c, standing));
+  }
   json["nearest_trials"] = nlohmann::ordered_json::array();
   for (const NearTrial& near : c.nearest) {
     nlohmann::ordered_json trial{{"id", near.trial.id},
