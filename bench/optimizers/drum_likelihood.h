@@ -73,9 +73,7 @@ inline Measurement Learnt(const std::string& name, const Table& table,
   std::vector<Eigen::Index> some;
   for (Eigen::Index i = 0; i < subset; ++i) some.push_back((i * 617) % n);  // prime to n
   const surrogate::GaussianProcessOptions options{
-      .trend = surrogate::Trend::kQuadratic,
-      .warp_inputs = true,
-      .priors = surrogate::PriorsOfOutputs({{.median = 0.2, .log_sd = 0.7}})};
+      .warp_inputs = true, .priors = surrogate::PriorsOfOutputs({{.median = 0.2, .log_sd = 0.7}})};
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
     const surrogate::Evaluations some_sets{.points = table.sets(Eigen::all, some).transpose(),
                                            .values = values.col(k)(some)};

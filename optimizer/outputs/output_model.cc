@@ -84,15 +84,17 @@ Eigen::MatrixXd OutputModel::ValuesOf(const OutputData& data) const {
 
 surrogate::GaussianProcessOptions OutputModel::OptionsFor(Eigen::Index output,
                                                           double spread) const {
-  surrogate::GaussianProcessOptions options{.trend = surrogate::Trend::kQuadratic,
-                                            .deterministic = setup_.deterministic,
+  surrogate::GaussianProcessOptions options{.deterministic = setup_.deterministic,
                                             .seed = setup_.seed};
   if (setup_.deterministic) {  // a prior a level: as many noises as there are levels
+    options.trend = surrogate::Trend::kQuadratic;
     options.priors.noise.resize(static_cast<std::size_t>(setup_.levels.size()),
                                 options.priors.noise.front());
     return options;
   }
   const double next_sd = modes_.next_sd / setup_.levels.NoiseAtTarget(0);
+  // Outputs that saturate are no parabolas: a quadratic trend is too sure of itself towards the
+  // ends of the range.
   options.priors = surrogate::PriorsOfOutputs(
       output < num_modes() ? NoiseOfMode(setup_.levels, static_cast<int>(output), next_sd, spread)
                            : NoiseOfScalar(setup_.levels));

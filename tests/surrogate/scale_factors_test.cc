@@ -34,7 +34,6 @@ Evaluations TwoLevels(int num_coarse, int num_fine) {
 
 GaussianProcessOptions Options() {
   return {
-      .trend = Trend::kQuadratic,
       .warp_inputs = true,
       .priors = PriorsOfOutputs({{.median = 0.1, .log_sd = 0.7}, {.median = 0.1, .log_sd = 0.7}}),
       .effort = {.num_starts = 1, .num_searches = 2, .max_evaluations = 50}};

@@ -193,7 +193,7 @@ std::optional<NumberSurrogate> NumberSurrogate::Fit(const Prediction& prediction
   const double spread = surrogate::StandardDeviation(evaluations.values);
   if (!(spread > 1e-12 * std::abs(fitted.constant_))) return fitted;
   const surrogate::GaussianProcessOptions options{
-      .trend = surrogate::Trend::kQuadratic,
+      .trend = surrogate::Trend::kQuadratic,  // over the draws, a small part of the range
       .priors = surrogate::PriorsOfOutputs(NoisePriors(prediction, number, levels, spread))};
   fitted.process_ = surrogate::GaussianProcess::Fit(evaluations, options);
   fitted.run_sd_ = levels.NoiseAtTarget(levels.finest()) *

@@ -75,7 +75,8 @@ TEST_F(PredictTest, TellsTheParametersFromTheScatterOfARun) {
   }
   EXPECT_NEAR(density.mean, 1550 - 350 * mean, 2);  // 4 / √80, three times
   const double sd = 350 * std::sqrt(square - mean * mean);
-  EXPECT_NEAR(density.parameters_sd, sd, 2);
+  // Bessel's and Student's factors for 16 draws come to 1.1; the draws' means scatter by 4 / √5.
+  EXPECT_NEAR(density.parameters_sd, 1.1 * sd, 2);
   EXPECT_LT(density.low, density.mean - sd);
   EXPECT_EQ(p.scale_factor, 1);  // of drawn heaps the finest is affordable
   EXPECT_THAT(p.notes, testing::Contains(HasSubstr("D50 0.4 mm instead of D50 1 mm")));

@@ -28,7 +28,7 @@ class SensitivityTest : public campaign::CampaignFixture {
   static constexpr campaign::FakeEngineOptions kBouncing{.restitution_as_rolling = 0.2};
 
   static constexpr const char* kBudget = R"(, "coarse_graining": {"scale_factors": [2, 1]},
-      "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)";
+      "budget": {"simulations": 36}, "confirm": {"candidates": 0}, "workers": 1)";
 
   JointView Run() {
     folder_ = Finished(kBudget, kBouncing);
@@ -126,7 +126,7 @@ TEST_F(SensitivityTest, CampaignWithTheOtherValueFindsWhatIsForetold) {
   const fs::path other = scratch_.path() / "other";
   campaign::BeginCampaign(spec, other);
   campaign::RunFake(other, kBouncing);
-  // 24 simulations leave its answer uncertain; what is foretold is one of those that it leaves.
+  // 32 simulations leave its answer uncertain; what is foretold is one of those that it leaves.
   const campaign::ResultParameter& found = Result(other).parameters[1];
   EXPECT_GT(foretold.to, found.credible_low);
   EXPECT_LT(foretold.to, found.credible_high);

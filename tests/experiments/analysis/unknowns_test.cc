@@ -75,9 +75,9 @@ TEST_F(UnknownsTest, ATestThatDependsOnTheRestitutionLosesBitsAndAnotherKeepsThe
   EXPECT_LT(heap.learning->bits, *heap.bits_if_known - 1);
   // 0.06 of slope, where one coarse heap scatters by 0.01 and three true ones with a model error as
   // large by 0.01 √(4/3 / 8): 15 errors of a slope, and more where an image has modes that scatter
-  // less. Four and eight heaps leave it to 0.006, two errors.
+  // less. Four and eight heaps leave it to 0.006, two errors, and the surrogate has its share.
   ASSERT_EQ(heap.unknowns.size(), 1u);
-  EXPECT_GT(heap.unknowns[0].shift, 13);
+  EXPECT_GT(heap.unknowns[0].shift, 11);
   // The slope tells μ_r: of that range more is left.
   EXPECT_GT(heap.learning->width[1], Find(before, "again").learning->width[1]);
   EXPECT_THAT(NextText(after), HasSubstr("bits if what it depends on were known: restitution (0.6 "

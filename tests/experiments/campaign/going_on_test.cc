@@ -211,7 +211,7 @@ TEST_F(GoingOnTest, ATrialHasTakenWhatAllItsAttemptsTook) {
 TEST_F(GoingOnTest, GrainsOfAnotherSizeConfirmAnew) {
   const auto keys = [](const std::string& confirm) {
     return R"(, "budget": {"simulations": 10}, "workers": 1, "strategy": {"kind": "sobol"},
-      "coarse_graining": {"scale_factor": 2}, "confirm": {"candidates": 1, )" +
+      "coarse_graining": {"scale_factor": 2}, "confirm": {"candidates": 1, "ends": false, )" +
            confirm + "}";
   };
   const fs::path folder = Begin(keys(R"("replicates": 2)"));

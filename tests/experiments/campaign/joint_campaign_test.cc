@@ -121,7 +121,8 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
 }
 
 TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
-  const fs::path folder = Finished(kTwoSizes);
+  const fs::path folder = Finished(R"(, "coarse_graining": {"scale_factors": [2, 1]},
+    "budget": {"simulations": 30}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)");
   const Answer result = Result(folder);
   ASSERT_TRUE(result.posterior.has_value());
   const ResultPosterior& posterior = *result.posterior;
