@@ -85,8 +85,8 @@ TEST(Experiment, NoiseFloorAndDeviationAreThoseOfTheRuns) {
   const Experiment experiment = MeasureExperiment(Options(folder));
   const NoiseFloor& floor = *experiment.noise_floor;
   ASSERT_EQ(floor.sad_px.size(), 3u);
-  // Of triangles over 300 px: 0.06 × 150²/1 px of area between the two slopes; the first two differ
-  // from the mean of the others by half of it.
+  // Between two triangles over 300 px lie 0.06 × 150²/1 px; the first two differ from the mean of
+  // the others by half of it.
   const double between = 0.06 * 150 * 150;
   EXPECT_NEAR(floor.sad_px[0], between / 2, 0.1 * between);
   EXPECT_NEAR(floor.sad_px[1], between / 2, 0.1 * between);

@@ -187,7 +187,7 @@ TEST(PosteriorStrategy, JointRegionsHoldTheTruthAsOftenAsTheySay) {
     covered += standing->credible_level <= 0.9 ? 1 : 0;
     level += standing->credible_level / kTwins;
   }
-  // Of regions that are right 27 ± 1.6 hold the truth, and its mean level is 0.5 ± 0.053: three of
+  // Where regions are right 27 ± 1.6 hold the truth, and its mean level is 0.5 ± 0.053: three of
   // these. The level is low where regions are too wide.
   EXPECT_GE(covered, 22);
   EXPECT_NEAR(level, 0.5, 0.16);

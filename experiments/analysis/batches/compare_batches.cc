@@ -73,7 +73,7 @@ double Unscaled(const journal::ParameterRecord& parameter, double value) {
   return IsLog(parameter) ? std::exp(value) : value;
 }
 
-// Of parameter `p`; `matters` as in BatchDifference.
+// How parameter `p` differs; `matters` as in BatchDifference.
 BatchDifference DifferenceOf(const Batch& first, const Batch& batch, std::size_t p,
                              double matters) {
   const journal::ParameterRecord& parameter = first.view.record.parameters[p];

@@ -27,8 +27,9 @@ std::optional<rigs::Regime> RegimeIn(const std::filesystem::path& trial);
 FlowRegime DescribeRegime(const std::string& name, const std::vector<rigs::Regime>& runs,
                           const rigs::Case& rig_case);
 
-// Of those that a campaign has (one or more), the nearest in ratio to that of the process: grains
-// of another size are sheared otherwise, and by which power of their size differs from rig to rig.
+// The scale factor of a campaign (of one or more) that is nearest in ratio to that of the process:
+// grains of another size are sheared otherwise, and by which power of their size differs from rig
+// to rig.
 double NearestScaleFactor(const std::vector<double>& of_campaign, double of_process);
 
 // A line for people on each regime of the process that lies beyond all tests by a factor of 3 or

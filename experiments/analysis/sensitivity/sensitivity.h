@@ -24,8 +24,9 @@ struct SensitivityOptions {
   std::vector<std::pair<std::string, std::string>> moves{};  // name, value; none: the usual ones
   std::optional<double> scale_factor{};  // one of the campaign's; default: the coarsest
   int most_replicates = 16;              // of each experiment and move, >= kFirstReplicates
-  // Of all simulations, reckoned by what the campaign's trials took [s]. The first of each move are
-  // made whatever they take; more replicates, and what is simulated at answers foretold, within it.
+  // What all simulations may take, reckoned by the campaign's trials [s]. The first of each move
+  // are made whatever they take; more replicates, and what is simulated at answers foretold, within
+  // it.
   double core_time = std::numeric_limits<double>::infinity();
   campaign::CampaignParts parts{};
   std::function<void(const std::string&)> tell{};  // what goes on, a line each; may be empty

@@ -70,7 +70,7 @@ std::string KnownText(const ConsideredParameter& p) {
   return text + "\n";
 }
 
-// Of an experiment; null where the campaign has none of that name.
+// The experiment of that name; null where the campaign has none.
 const journal::ExperimentRecord* RecordOf(const ConsideredSet& c, const std::string& name) {
   const auto record = std::ranges::find(c.records, name, &journal::ExperimentRecord::name);
   return record != c.records.end() ? &*record : nullptr;

@@ -114,7 +114,7 @@ struct CampaignSpec {
   // Whether another strategy than the calibration's own chooses the trials.
   bool HasOwnProposer() const;
 
-  // Of the simulations that confirm.
+  // What the recommended sets are confirmed at.
   double ConfirmScaleFactor() const {
     return confirm.scale_factor.value_or(coarse_graining.scale_factor);
   }

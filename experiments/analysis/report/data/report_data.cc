@@ -31,7 +31,7 @@ void AddModelViews(ReportData& data) {
   data.pairs = PosteriorPairs(evidence);
 }
 
-// Of the searched plane.
+// The region's share of the searched plane.
 double InsideShare(const PairMap& pair) {
   const auto inside = std::ranges::count_if(pair.value, [](double level) { return level < 0.9; });
   return pair.plane * static_cast<double>(inside) / static_cast<double>(pair.value.size());

@@ -74,7 +74,7 @@ std::string Heaps(const ReportData& data) {
          Image(simulated, name + ", simulated, average profile");
 }
 
-// Of the first experiments that have any.
+// Measured and simulated heaps of the first experiments that have any.
 std::string AllHeaps(const ReportData& data) {
   std::string heaps = Heaps(data);
   std::size_t num_pairs = heaps.empty() ? 0 : 1;
