@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "base/random.h"
 #include "optimizer/posterior/credible_ranges.h"
@@ -16,9 +17,11 @@ namespace {
 
 constexpr double kFar = 1e300;  // a log weight below all others
 
+constexpr Eigen::Index kTruths = 64;
+
 // Means in the measurement's standard deviations.
-Eigen::MatrixXd Standardised(const PredictedMeasurement& m) {
-  return m.mean.array().rowwise() / m.variance.array().sqrt().transpose();
+Eigen::MatrixXd Standardised(const Eigen::MatrixXd& mean, const Eigen::VectorXd& variance) {
+  return mean.array().rowwise() / variance.array().sqrt().transpose();
 }
 
 double Bits(const Eigen::MatrixXd& z) {
@@ -42,6 +45,32 @@ Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen
   Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());
   if (!is_truth.all()) log_weight = is_truth.select(-kFar, log_weight);
   return (log_weight - log_weight.maxCoeff()).exp();
+}
+
+// One measurement that may come: what its truth shows, and which draws are that truth.
+struct Truth {
+  Eigen::RowVectorXd shows;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is;
+};
+
+std::vector<Truth> Truths(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& z,
+                          const PredictedMeasurement& measurement) {
+  std::vector<Truth> truths;
+  if (measurement.supposed.rows() > 0) {
+    const Eigen::Array<bool, Eigen::Dynamic, 1> none =
+        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(z.rows(), false);
+    const Eigen::MatrixXd supposed = Standardised(measurement.supposed, measurement.variance);
+    for (const auto& shows : supposed.rowwise()) {
+      truths.push_back({.shows = shows, .is = none});
+    }
+    return truths;
+  }
+  const Eigen::Index count = std::min(kTruths, draws.rows());
+  for (Eigen::Index t = 0; t < count; ++t) {
+    const Eigen::Index row = t * draws.rows() / count;
+    truths.push_back({.shows = z.row(row), .is = SameAs(draws, row)});
+  }
+  return truths;
 }
 
 std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
@@ -82,7 +111,6 @@ double HalfWidth90(const Eigen::VectorXd& values) {
 
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
                        std::uint64_t seed, const LearningAim& aim) {
-  constexpr Eigen::Index kTruths = 64;
   const auto& [goal, nuisances] = aim;
   const bool has_goal = goal.size() > 0;
   ExpectedLearning learning{.bits = 0, .width = CredibleWidths90(draws, nuisances)};
@@ -90,22 +118,22 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   learning.wide = learning.width;
   if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
-  const Eigen::MatrixXd z = Standardised(measurement);
+  const Eigen::MatrixXd z = Standardised(measurement.mean, measurement.variance);
   learning.bits = Bits(z);
   std::tie(learning.first, learning.second) = MostApart(z);
   base::Random random(seed, base::Stream("measurements to come"));
-  const Eigen::Index count = std::min(kTruths, draws.rows());
-  Eigen::MatrixXd widths(count, draws.cols());
+  const std::vector<Truth> truths = Truths(draws, z, measurement);
+  const auto count = static_cast<double>(truths.size());
+  Eigen::MatrixXd widths(static_cast<Eigen::Index>(truths.size()), draws.cols());
   if (has_goal) learning.goal_half_width = 0;
-  for (Eigen::Index t = 0; t < count; ++t) {
-    const Eigen::Index truth = t * draws.rows() / count;
-    Eigen::RowVectorXd seen = z.row(truth);
+  for (Eigen::Index t = 0; t < widths.rows(); ++t) {
+    const Truth& truth = truths[static_cast<std::size_t>(t)];
+    Eigen::RowVectorXd seen = truth.shows;
     for (double& value : seen) value += random.Normal();
-    const Eigen::VectorXd weights = Weights(z, seen, SameAs(draws, truth));
+    const Eigen::VectorXd weights = Weights(z, seen, truth.is);
     widths.row(t) = CredibleWidths90(Resampled(draws, weights), nuisances).transpose();
     if (!has_goal) continue;
-    learning.goal_half_width +=
-        HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);
+    learning.goal_half_width += HalfWidth90(Resampled(goal, weights).col(0)) / count;
   }
   constexpr double kTenth = 0.1;
   learning.width = widths.colwise().mean().transpose();

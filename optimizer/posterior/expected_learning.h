@@ -13,6 +13,8 @@ namespace talus::optimizer {
 struct PredictedMeasurement {
   Eigen::MatrixXd mean;      // one draw a row, one output a column; no columns: nothing is measured
   Eigen::VectorXd variance;  // of each output once measured: its error and the model's, > 0
+  // The same of sets that are supposed to be the truth, one a row; none: any draw may be it.
+  Eigen::MatrixXd supposed{};
 };
 
 struct ExpectedLearning {
@@ -36,10 +38,10 @@ struct LearningAim {
 };
 
 // `draws`: equally likely, one a row, as many as the measurement's rows and two at least. Each of
-// some of them is taken for the truth in turn, its measurement drawn, and the others weighted by
-// it, with the posterior's own heavy tails. What a measurement tells more finely than the draws lie
-// apart hangs on the few that are near: widths below the distance of neighbouring draws mean no
-// more than that they are below it.
+// some of them, or of what is supposed, is taken for the truth in turn, its measurement drawn, and
+// the others weighted by it, with the posterior's own heavy tails. `bits` is of all draws. What a
+// measurement tells more finely than the draws lie apart hangs on the few that are near: widths
+// below the distance of neighbouring draws mean no more than that they are below it.
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
                        std::uint64_t seed, const LearningAim& aim = {});
 

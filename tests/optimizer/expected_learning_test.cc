@@ -79,6 +79,26 @@ TEST(ExpectedLearning, SaysHowFarTheRangesHangOnTheSet) {
   EXPECT_GT(learning.narrow[1], 0.8);  // the other parameter is not measured, whatever the set
 }
 
+// The same, when the set is known: slopes of 2.05 at 0.8 and of 0.5 at 0.5, and ranges of ± 2
+// to 2.75 sd of a measurement with that slope.
+TEST(ExpectedLearning, SaysWhatIsLeftWhereASetIsSupposed) {
+  const Eigen::MatrixXd draws = Even(4000);
+  const double sd = 0.01;
+  const auto width = [&](double x) {
+    return Learn(draws,
+                 {.mean = draws.col(0).array().pow(4),
+                  .variance = Eigen::VectorXd::Constant(1, sd * sd),
+                  .supposed = Eigen::MatrixXd::Constant(64, 1, std::pow(x, 4))},
+                 1)
+        .width;
+  };
+  EXPECT_GT(width(0.8)[0], 4 * sd / 2.05);
+  EXPECT_LT(width(0.8)[0], 5.5 * sd / 2.05);
+  EXPECT_GT(width(0.5)[0], 4 * sd / 0.5);
+  EXPECT_LT(width(0.5)[0], 5.5 * sd / 0.5 * 1.25);  // it bends: flatter below
+  EXPECT_GT(width(0.8)[1], 0.8);
+}
+
 // A number that only the second parameter moves is narrowed by what measures that one: for a wide
 // posterior to 1.64 sd, somewhat more with heavy tails.
 TEST(ExpectedLearning, AGoalIsNarrowedByWhatMeasuresItAlone) {

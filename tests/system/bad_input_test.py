@@ -197,6 +197,8 @@ def good_folder(folder):
     (folder / "fixed_pair.json").write_text(json.dumps(
         {**example("scenes/heap_case.json"),
          "pairs": [{"between": ["powder", "plate"], "sliding_friction": 0.2}]}))
+    plan = {k: v for k, v in spec().items() if k not in ("experiment", "budget", "strategy")}
+    (folder / "plan.json").write_text(json.dumps(plan))
     (folder / "degrees.json").write_text('{"angle_of_repose_1": {"value": 33, "sd": "1 deg"}}')
     (folder / "levels.json").write_text(json.dumps(
         {"parameters": [{"name": "rpm", "levels": [10, 20]}], "evaluations": 2, "strategy": {"kind": "grid"}}))

@@ -1,6 +1,7 @@
 #include "experiments/analysis/design/design_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -29,12 +30,39 @@ std::string NamesOf(const DesignTable& table, const DesignChoice& choice) {
                       [&](std::size_t t) { return table.tests.candidates[t].name; });
 }
 
+// What the choices are in order of, ten characters wide.
+std::string MeritText(const DesignTable& table, const DesignChoice& choice) {
+  char text[16];
+  if (table.supposed.empty()) {
+    std::snprintf(text, sizeof text, "%5.2f bits", choice.learning.bits);
+  } else {
+    std::snprintf(text, sizeof text, "%8.2g %%", 100 * choice.remaining);
+  }
+  return text;
+}
+
+std::string SupposedText(const DesignTable& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.supposed.size(); ++i) {
+    if (std::isnan(table.supposed[i])) continue;
+    const journal::ParameterRecord& p = table.tests.parameters[i];
+    text += (text.empty() ? "" : ", ") + p.name + " " + base::WithUnit(table.supposed[i], p.unit);
+  }
+  return text;
+}
+
+// "searched: …", and what is supposed.
+std::string GroundText(const DesignTable& table) {
+  std::string text = "searched: " + WidthsText(table.tests, table.tests.width) + "\n";
+  if (table.supposed.empty()) return text;
+  return text + "supposed: " + SupposedText(table) +
+         "; in order of the share of the volume searched that they are expected to leave\n";
+}
+
 std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice>& choices) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kShown, choices.size()); ++i) {
-    char bits[16];
-    std::snprintf(bits, sizeof bits, "%5.2f", choices[i].learning.bits);
-    text += std::string(bits) + " bits  " + NamesOf(table, choices[i]) +
+    text += MeritText(table, choices[i]) + "  " + NamesOf(table, choices[i]) +
             "\n            expected to leave " + SpreadText(table.tests, choices[i].learning) +
             "\n";
   }
@@ -129,7 +157,7 @@ std::string DesignCostText(const DesignSpec& design) {
 std::string DesignText(const DesignTable& table, const campaign::JointView& view,
                        const std::vector<TestCandidate>& tests) {
   static constexpr const char* kHeads[] = {"one test", "two tests", "three tests"};
-  std::string text = "searched: " + WidthsText(table.tests, table.tests.width) + "\n";
+  std::string text = GroundText(table);
   std::set<std::size_t> best;
   for (std::size_t size = 0; size < table.choices.size(); ++size) {
     if (table.choices[size].empty()) continue;
@@ -149,11 +177,16 @@ std::string DesignJson(const DesignTable& table) {
   auto json = nlohmann::ordered_json::parse(NextJson(table.tests));
   for (const char* of_campaign : {"after_trial", "simulate_first"}) json.erase(of_campaign);
   json["scale_factor"] = table.scale_factor;
+  for (std::size_t i = 0; i < table.supposed.size(); ++i) {
+    if (std::isnan(table.supposed[i])) continue;
+    json["supposed"][table.tests.parameters[i].name] = table.supposed[i];
+  }
   json["choices"] = nlohmann::ordered_json::array();
   for (const std::vector<DesignChoice>& choices : table.choices) {
     for (const DesignChoice& choice : choices) {
       nlohmann::ordered_json entry{{"tests", nlohmann::ordered_json::array()},
-                                   {"bits", choice.learning.bits}};
+                                   {"bits", choice.learning.bits},
+                                   {"remaining", choice.remaining}};
       for (const std::size_t t : choice.tests) {
         entry["tests"].push_back(table.tests.candidates[t].name);
       }

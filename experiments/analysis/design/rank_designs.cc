@@ -29,6 +29,19 @@ Eigen::MatrixXd PriorDraws(const campaign::JointView& view) {
                   : domain.prior.Draw(kPriorDraws, domain.num_parameters, view.spec.seed));
 }
 
+// So many sets with the values that are given, and with draws' values in place of those that are
+// not (NaN).
+Eigen::MatrixXd SetsWith(const Eigen::VectorXd& given, const Eigen::MatrixXd& draws) {
+  constexpr Eigen::Index kSets = 64;
+  if (given.size() == 0) return {};
+  Eigen::MatrixXd sets(kSets, draws.cols());
+  for (Eigen::Index s = 0; s < kSets; ++s) {
+    const Eigen::VectorXd draw = draws.row(s * draws.rows() / kSets).transpose();
+    sets.row(s) = given.array().isNaN().select(draw, given).transpose();
+  }
+  return sets;
+}
+
 NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
                      const campaign::CampaignParts& parts) {
   auto [candidate, can_simulate] = ListTest(ground.view, test);
@@ -46,16 +59,19 @@ optimizer::ExpectedLearning Together(const Ground& ground,
                                      const std::vector<std::size_t>& tests) {
   Eigen::Index num_outputs = 0;
   for (const std::size_t t : tests) num_outputs += candidates[t].predicted.mean.cols();
-  optimizer::PredictedMeasurement all{.mean = Eigen::MatrixXd(ground.draws.rows(), num_outputs),
-                                      .variance = Eigen::VectorXd(num_outputs)};
+  optimizer::PredictedMeasurement all{
+      .mean = Eigen::MatrixXd(ground.draws.rows(), num_outputs),
+      .variance = Eigen::VectorXd(num_outputs),
+      .supposed = Eigen::MatrixXd(ground.supposed.rows(), num_outputs)};
   Eigen::Index left = 0;
   for (const std::size_t t : tests) {
     const optimizer::PredictedMeasurement& one = candidates[t].predicted;
     all.mean.middleCols(left, one.mean.cols()) = one.mean;
     all.variance.segment(left, one.mean.cols()) = one.variance;
+    if (one.supposed.rows() > 0) all.supposed.middleCols(left, one.mean.cols()) = one.supposed;
     left += one.mean.cols();
   }
-  return ground.Learn(all.mean, all.variance);
+  return ground.Learn(all);
 }
 
 // All sets of so many of the tests that could be judged.
@@ -75,18 +91,21 @@ void AddChoices(const std::vector<std::size_t>& judged, std::size_t size, std::s
 }  // namespace
 
 DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestCandidate>& tests,
-                        const campaign::CampaignParts& parts) {
-  const Ground ground{.view = view,
-                      .draws = PriorDraws(view),
-                      .model_error = view.spec.posterior.model_error,
-                      .surrogate_share = kSurrogateShare};
+                        const campaign::CampaignParts& parts, const campaign::GivenSet& supposed) {
+  Ground ground{.view = view,
+                .draws = PriorDraws(view),
+                .model_error = view.spec.posterior.model_error,
+                .surrogate_share = kSurrogateShare};
+  ground.supposed = SetsWith(supposed.point, ground.draws);
   DesignTable table{
       .tests = {.parameters = view.record.parameters, .nuisances = view.space.Nuisances()},
+      .supposed = supposed.values,
       .scale_factor = view.spec.coarse_graining.Levels().front()};
   for (const int i : view.space.Free()) {
     table.tests.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
   }
-  table.tests.width = ground.Learn(Eigen::MatrixXd(ground.draws.rows(), 0), {}).width;
+  table.tests.width =
+      ground.Learn({.mean = Eigen::MatrixXd(ground.draws.rows(), 0), .variance = {}}).width;
   std::vector<std::size_t> judged;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     table.tests.candidates.push_back(TestOf(ground, tests[t], parts));
@@ -99,9 +118,11 @@ DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestC
     AddChoices(judged, size, 0, begun, choices);
     for (DesignChoice& choice : choices) {
       choice.learning = Together(ground, table.tests.candidates, choice.tests);
+      choice.remaining = RemainingOf(table.tests, choice.learning);
     }
-    std::ranges::stable_sort(choices, std::ranges::greater(),
-                             [](const DesignChoice& c) { return c.learning.bits; });
+    std::ranges::stable_sort(choices, {}, [&](const DesignChoice& c) {
+      return table.supposed.empty() ? -c.learning.bits : c.remaining;
+    });
   }
   return table;
 }

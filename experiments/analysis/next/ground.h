@@ -17,12 +17,13 @@ struct Ground {
   double model_error = 1;  // of a test that was not made: the tests' that were [rms]
   // Share of its surrogate's error in the variances of a further test's outputs, in [0, 1).
   double surrogate_share = 0;
-  Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
+  Eigen::VectorXd goal{};      // what a prediction gives at each draw; empty: the parameters count
+  Eigen::MatrixXd supposed{};  // sets to take for the truth, one a row; none: the draws
 
-  // `variance` of each output once measured, before tempering.
-  optimizer::ExpectedLearning Learn(const Eigen::MatrixXd& mean,
-                                    const Eigen::VectorXd& variance) const {
-    return optimizer::Learn(draws, {.mean = mean, .variance = temper * variance}, view.spec.seed,
+  // The variance of each output once measured is that before tempering.
+  optimizer::ExpectedLearning Learn(optimizer::PredictedMeasurement measurement) const {
+    measurement.variance *= temper;
+    return optimizer::Learn(draws, measurement, view.spec.seed,
                             {.goal = goal, .nuisances = view.space.Nuisances()});
   }
 };

@@ -182,7 +182,10 @@ void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandida
       .mean = at.mean,
       .variance = VarianceOf(ground, at, test, design,
                              static_cast<Eigen::Index>(made.target.scalars.size()))};
-  candidate.learning = ground.Learn(candidate.predicted.mean, candidate.predicted.variance);
+  if (ground.supposed.rows() > 0) {
+    candidate.predicted.supposed = model.Predict(ground.supposed).mean;
+  }
+  candidate.learning = ground.Learn(candidate.predicted);
   if (!unknown.base.empty()) {
     Discount(ground, unknown, UnknownRowsOf(simulated, made, model), candidate);
   }

@@ -38,7 +38,7 @@ double SurrogateShare(const std::vector<Known>& experiments) {
 optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
                                           const Eigen::VectorXd& less) {
   const Eigen::VectorXd now = known.Now();
-  return ground.Learn(known.at.mean, OfTheDifference(now, now - less));
+  return ground.Learn({.mean = known.at.mean, .variance = OfTheDifference(now, now - less)});
 }
 
 optimizer::ExpectedLearning LearnWithoutSurrogate(const Ground& ground,
@@ -55,7 +55,7 @@ optimizer::ExpectedLearning LearnWithoutSurrogate(const Ground& ground,
     variance.segment(first, count) = OfTheDifference(now, now - known.surrogate);
     first += count;
   }
-  return ground.Learn(mean, variance);
+  return ground.Learn({.mean = mean, .variance = variance});
 }
 
 }  // namespace talus::analysis

@@ -4,7 +4,6 @@
 #include <tuple>
 
 namespace talus::analysis {
-namespace {
 
 double RemainingOf(const NextTable& table, const optimizer::ExpectedLearning& learning) {
   if (table.goal) return std::min(1.0, learning.goal_half_width / table.goal->half_width);
@@ -15,8 +14,6 @@ double RemainingOf(const NextTable& table, const optimizer::ExpectedLearning& le
   }
   return volume;
 }
-
-}  // namespace
 
 void SetRemaining(NextTable& table) {
   for (NextCandidate& candidate : table.candidates) {

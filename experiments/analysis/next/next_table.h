@@ -84,6 +84,9 @@ struct NextTable {
   std::vector<NextCandidate> candidates{};  // in the order of Rank
 };
 
+// What the learning is expected to leave: NextCandidate::remaining.
+double RemainingOf(const NextTable& table, const optimizer::ExpectedLearning& learning);
+
 // Sets what each candidate leaves.
 void SetRemaining(NextTable& table);
 

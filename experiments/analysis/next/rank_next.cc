@@ -141,7 +141,8 @@ void AddNumbers(const Ground& ground, const optimizer::Posterior& posterior,
          .name = "mass on the plate of " + record.name,
          .what = "weigh what stays on the plate, or what falls off it, in " +
                  base::Counted(runs, "run"),
-         .learning = ground.Learn(at.mean, MeasuredBy(own, at, runs, 1) + SurrogateVariance(at))});
+         .learning = ground.Learn(
+             {.mean = at.mean, .variance = MeasuredBy(own, at, runs, 1) + SurrogateVariance(at)})});
   }
 }
 
@@ -153,13 +154,13 @@ void AddDirect(const Ground& ground, std::vector<NextCandidate>& all) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (!campaign::CanBeMeasuredDirectly(parameters[k].name)) continue;
     const double sd = kWidth / kNormal;  // a measurement has no temper
-    all.push_back(
-        {.kind = NextKind::kDirect,
-         .name = parameters[k].name + " by itself",
-         .what = "measure it on a tilted plate to ± " + base::ShortNumber(50 * kWidth) +
-                 " % of its searched range and set it in the spec",
-         .learning = ground.Learn(ground.draws.col(static_cast<Eigen::Index>(k)),
-                                  Eigen::VectorXd::Constant(1, sd * sd / ground.temper))});
+    all.push_back({.kind = NextKind::kDirect,
+                   .name = parameters[k].name + " by itself",
+                   .what = "measure it on a tilted plate to ± " + base::ShortNumber(50 * kWidth) +
+                           " % of its searched range and set it in the spec",
+                   .learning = ground.Learn(
+                       {.mean = ground.draws.col(static_cast<Eigen::Index>(k)),
+                        .variance = Eigen::VectorXd::Constant(1, sd * sd / ground.temper)})});
   }
 }
 
@@ -317,7 +318,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   for (const journal::TrialRecord& trial : view.trials) {
     if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
   }
-  table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
+  table.width = ground.Learn({.mean = Eigen::MatrixXd(kDraws, 0), .variance = {}}).width;
   Cost cost(view);
   AddMoreOfTheSame(ground, experiments, cost, table.candidates);
   AddNumbers(ground, strategy->Model(), table.candidates);

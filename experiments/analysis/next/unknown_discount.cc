@@ -61,7 +61,7 @@ void Discount(const Ground& ground, const UnknownTrials& unknown, const UnknownR
   if (shifts.empty()) return;
   const optimizer::PredictedMeasurement less = WithShifts(candidate.predicted, shifts);
   candidate.bits_if_known = candidate.learning->bits;
-  candidate.learning = ground.Learn(less.mean, less.variance);
+  candidate.learning = ground.Learn(less);
   std::ranges::stable_sort(candidate.unknowns, std::greater<>{}, &NextUnknown::shift);
   candidate.what += DiscountText(candidate);
 }

@@ -21,7 +21,7 @@ namespace talus::campaign {
 namespace {
 
 constexpr std::size_t kMostNear = 5;
-constexpr double kTypical = std::numeric_limits<double>::quiet_NaN();  // of a coordinate: as it is
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
                                      const std::vector<Reference>& references,
@@ -116,23 +116,31 @@ std::string NearText(const ConsideredSet& c, const NearTrial& near) {
          "\n";
 }
 
+// As given, not as the unit cube rounds them; of the nuisances that were not, the point's.
+std::vector<double> ValuesOf(const JointView& view, const GivenSet& given,
+                             const Eigen::VectorXd& point) {
+  std::vector<double> values = FreeValues(view.space, point);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isnan(given.values[i])) values[i] = given.values[i];
+  }
+  return values;
+}
+
 }  // namespace
 
-Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
-                        const std::map<std::string, std::string>& set) {
+GivenSet ReadSet(const optimizer::ParameterSpace& space,
+                 const std::map<std::string, std::string>& set, MayLack may_lack) {
   base::Problems problems;
   std::vector<std::string> names;
   const std::vector<int> free = space.Free();
-  Eigen::VectorXd point(static_cast<Eigen::Index>(free.size()));
+  GivenSet read{
+      .point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), kNotGiven),
+      .values = std::vector<double>(free.size(), kNotGiven)};
   for (std::size_t i = 0; i < free.size(); ++i) {
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
     names.push_back(p.name);
     const auto given = set.find(p.name);
-    if (given == set.end() && p.is_nuisance) {
-      point[static_cast<Eigen::Index>(i)] = kTypical;
-      continue;
-    }
-    problems.Require(given != set.end(), p.name,
+    problems.Require(given != set.end() || p.is_nuisance || may_lack == MayLack::kAny, p.name,
                      "is missing; give NAME=VALUE for every calibrated parameter");
     if (given == set.end()) continue;
     try {
@@ -140,7 +148,8 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
       problems.Require(value >= p.low && value <= p.high, p.name, value,
                        "must be in the searched range, " + base::ShortNumber(p.low) + " to " +
                            base::ShortNumber(p.high));
-      point[static_cast<Eigen::Index>(i)] = p.ToUnit(value);
+      read.point[static_cast<Eigen::Index>(i)] = p.ToUnit(value);
+      read.values[i] = value;
     } catch (const base::ConfigError& error) {
       problems.Add(p.name, error.what());
     }
@@ -151,25 +160,27 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
                            base::DidYouMean(name, names) + "; there are " + base::Listed(names));
   }
   problems.ThrowIfAny();
-  return point;
+  return read;
 }
 
-Eigen::VectorXd Filled(const Eigen::VectorXd& given, optimizer::PosteriorStrategy& strategy) {
-  if (!given.hasNaN()) return given;
-  const auto is_open = given.array().isNaN();
-  const Eigen::VectorXd middle = is_open.select(0.5, given);
+Eigen::VectorXd Filled(const GivenSet& given, optimizer::PosteriorStrategy& strategy) {
+  const Eigen::VectorXd& point = given.point;
+  if (!point.hasNaN()) return point;
+  const auto is_open = point.array().isNaN();
+  const Eigen::VectorXd middle = is_open.select(0.5, point);
   if (!strategy.CanModel()) return middle;
-  return is_open.select(strategy.Asked().WithTypicalNuisances(middle), given);
+  return is_open.select(strategy.Asked().WithTypicalNuisances(middle), point);
 }
 
 ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {
   const JointView view = ReadJointView(root);
   const auto strategy = StrategyOf(view, view.Answered());
-  const Eigen::VectorXd point = Filled(ReadSet(view.space, set), *strategy);
+  const GivenSet given = ReadSet(view.space, set);
+  const Eigen::VectorXd point = Filled(given, *strategy);
   ConsideredSet considered{
       .parameters = view.record.parameters,
-      .values = FreeValues(view.space, point),
+      .values = ValuesOf(view, given, point),
       .target_scale_factor = view.spec.coarse_graining.Target(),
       .credible_level = {},
       .experiments = {},

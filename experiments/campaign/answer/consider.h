@@ -47,13 +47,22 @@ struct ConsideredSet {
   std::string objective_unit;
 };
 
-// The point of the unit cube where each free parameter has the value given as text, "0.45" or
-// "2 uJ/m^2"; NaN where a nuisance is not given. Throws ConfigError with every parameter that is
-// missing, not known or outside its range.
-Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
-                        const std::map<std::string, std::string>& set);
-// The same with the nuisances that were not given where they typically are beside the others.
-Eigen::VectorXd Filled(const Eigen::VectorXd& given, optimizer::PosteriorStrategy& strategy);
+// A set as somebody gives it, of the free parameters in their order; NaN where one is not given.
+struct GivenSet {
+  Eigen::VectorXd point;       // of the unit cube
+  std::vector<double> values;  // as given, SI
+};
+
+// Which parameters may be left out.
+enum class MayLack { kNuisances, kAny };
+
+// Values are text, "0.45" or "2 uJ/m^2". Throws ConfigError with every parameter that is missing,
+// not known or outside its range.
+GivenSet ReadSet(const optimizer::ParameterSpace& space,
+                 const std::map<std::string, std::string>& set,
+                 MayLack may_lack = MayLack::kNuisances);
+// Its point, with the nuisances that were not given where they typically are beside the others.
+Eigen::VectorXd Filled(const GivenSet& given, optimizer::PosteriorStrategy& strategy);
 
 // The campaign may be running; nothing is written.
 ConsideredSet ConsiderSet(const std::filesystem::path& folder,
