@@ -5,6 +5,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,25 @@ TEST(ImageFile, AlphaDoesNotHideHowManyBitsTheCameraHas) {
   }
 }
 
+// Programs store pictures of few colours so: two bits a pixel here, each an entry of the palette.
+TEST(ImageFile, PngWithAPalette) {
+  const std::vector<png_byte> palette{255, 0, 0, 0, 255, 0, 0, 0, 255};
+  const std::vector<png_byte> entries{2, 0, 1};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 3;
+  image.height = 1;
+  image.format = PNG_FORMAT_RGB_COLORMAP;
+  image.colormap_entries = 3;
+  png_alloc_size_t size = 0;
+  png_image_write_to_memory(&image, nullptr, &size, 0, entries.data(), 0, palette.data());
+  std::string bytes(size, '\0');
+  png_image_write_to_memory(&image, bytes.data(), &size, 0, entries.data(), 0, palette.data());
+  ASSERT_EQ(bytes[24], 2) << "bits a pixel";
+  EXPECT_THAT(DecodeGrayImage(bytes, "palette.png").pixels,
+              ::testing::ElementsAre(kLuma[2], kLuma[0], kLuma[1]));
+}
+
 // Quality 95 leaves a few grey levels of error on a smooth ramp.
 TEST(ImageFile, Jpeg) {
   const GrayImage ramp = Ramp();
@@ -123,10 +143,10 @@ TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, 300), "half.tif"), base::ConfigError);
 }
 
-// One pixel; of `samples` those beyond the colours are of the kind `extra`.
+// One pixel; of `samples` one beyond the colours is of the kind `extra`.
 template <class Sample>
 std::string WriteTiffPixel(std::vector<Sample> samples, std::uint16_t photometric,
-                           std::uint16_t extra) {
+                           std::optional<std::uint16_t> extra) {
   const std::string file = TempFile("pixel.tif");
   TIFF* const tiff = TIFFOpen(file.c_str(), "w");
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 1);
@@ -135,10 +155,23 @@ std::string WriteTiffPixel(std::vector<Sample> samples, std::uint16_t photometri
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, static_cast<int>(8 * sizeof(Sample)));
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &extra);
+  if (extra) TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &*extra);
   EXPECT_EQ(TIFFWriteScanline(tiff, samples.data(), 0), 1);
   TIFFClose(tiff);
   return file;
+}
+
+TEST(ImageFile, TiffInColour) {
+  for (std::size_t i = 0; i < kLuma.size(); ++i) {
+    const auto& [red, green, blue] = kPrimaries.pixels[i];
+    const auto grey = [](const std::string& file) { return ReadGrayImage(file).pixels[0]; };
+    EXPECT_NEAR(grey(WriteTiffPixel<std::uint8_t>({red, green, blue}, PHOTOMETRIC_RGB, {})),
+                kLuma[i], 1);
+    const auto deep = [](std::uint8_t level) { return static_cast<std::uint16_t>(257 * level); };
+    EXPECT_NEAR(grey(WriteTiffPixel<std::uint16_t>({deep(red), deep(green), deep(blue)},
+                                                   PHOTOMETRIC_RGB, {})),
+                kLuma[i], 1);
+  }
 }
 
 // A red of 200 that lets half of what is behind it through, before white: as in any other format.

@@ -61,6 +61,42 @@ TEST(MassStudy, OneMassInTwoUnitsIsOneRow) {
   EXPECT_EQ(study.rows[0].num_runs, 4);
 }
 
+// Each of its numbers decides: 97 % of the plate is enough, and is too little for a rule of 98.
+TEST(MassStudy, EveryNumberOfTheRuleDecides) {
+  const auto runs = Runs(1e-3, {17, 17.2, 17.4, 17.6}, 0.97) + Runs(2e-3, {17.8, 17.7}, 1);
+  const auto chosen = [&](const MassRule& rule) {
+    return StudyMass(runs, rule).chosen.value_or(0);
+  };
+  EXPECT_EQ(chosen({}), 1e-3);
+  EXPECT_EQ(chosen({.least_base = 0.98}), 2e-3);
+  EXPECT_EQ(chosen({.largest_gain = 0.02}), 2e-3);  // 17.75 / 17.3 is 1.026
+  EXPECT_EQ(chosen({.largest_sd = 0.01}), 2e-3);    // 0.258 / 17.3 is 1.5 %, 0.4 % of the other
+  EXPECT_EQ(chosen({.largest_day_change = 0.02}), 2e-3);  // 17.5 / 17.1 is 2.3 %
+  EXPECT_THAT(RuleText({.least_base = 0.95,
+                        .largest_gain = 0.02,
+                        .largest_sd = 0.04,
+                        .largest_day_change = 0.06}),
+              AllOf(HasSubstr("base at least 95 %"), HasSubstr("more than 2 % more NEBP"),
+                    HasSubstr("at most 4 %"), HasSubstr("differ by at most 6 %")));
+}
+
+// 9.5 mm wide where it stands, on a plate of 10 mm; what is wider above is not the base.
+TEST(MassStudy, TheBaseIsTheWidthAtThePlate) {
+  Profile profile{.image = {.width = 120, .height = 80, .pixels = {}},
+                  .frame = {.width = 120,
+                            .height = 80,
+                            .pixel_size = 1e-4,
+                            .center_x = 60,
+                            .baseline = 76,
+                            .plate_diameter = 10e-3}};
+  profile.image.pixels.assign(120 * 80, 255);
+  for (int y = 40; y < 76; ++y) {
+    const int beyond = y < 60 ? 8 : 0;
+    for (int x = 13 - beyond; x < 108 + beyond; ++x) profile.image.at(x, y) = 0;
+  }
+  EXPECT_NEAR(BaseShare(profile), 0.95, 1e-9);
+}
+
 TEST(MassStudy, PlotShowsTheRuns) {
   const auto runs = Runs(1e-3, {17, 17.2}, 1) + Runs(2e-3, {18, 18.2}, 1);
   const ColorImage plot = DrawMassStudy(runs, StudyMass(runs));

@@ -215,15 +215,43 @@ TEST(NoAngle, WallsWithoutASlope) {
 }
 
 // A mushroom: 30 px wider above than at its foot, on the left only.
-TEST(NoAngle, OverhangOnOneSide) {
+GrayImage Mushroom() {
   GrayImage image = Silhouette([](double x) { return std::max(0.0, 80 - std::abs(x)); });
   for (int y = 220; y < 240; ++y) {
     for (int x = 90; x < 200; ++x) image.at(x, y) = 0;
   }
-  const ReposeAngles angles = MeasureRepose(image, SmallFrame());
+  return image;
+}
+
+TEST(NoAngle, OverhangOnOneSide) {
+  const ReposeAngles angles = MeasureRepose(Mushroom(), SmallFrame());
   EXPECT_NE(angles[1].left.not_defined.find("overhangs"), std::string::npos);
   EXPECT_TRUE(angles[1].right.defined());
   EXPECT_FALSE(angles[1].mean.defined());
+}
+
+// Half of the plate is more than the mushroom's cap stands out by.
+TEST(ReposeOptions, AnOverhangMayBeAsWideAsItIsTolerated) {
+  const ReposeAngles angles = MeasureRepose(Mushroom(), SmallFrame(), {.overhang_tolerance = 0.5});
+  EXPECT_TRUE(angles[0].left.defined()) << angles[0].left.not_defined;
+  EXPECT_EQ(angles[0].right.value, MeasureRepose(Mushroom(), SmallFrame())[0].right.value);
+}
+
+// A hollow slope is flatter towards its foot: the whole of it is method 2, a quarter less than a
+// half.
+TEST(ReposeOptions, Method3IsOfTheShareOfTheBaseThatIsAsked) {
+  const Side hollow = Bent(120, 100, 0.6);
+  const GrayImage heap =
+      Silhouette([&](double x) { return std::abs(x) < 120 ? hollow.height(std::abs(x)) : 0; });
+  const auto angle = [&](double share, std::size_t method) {
+    return MeasureRepose(heap, SmallFrame(), {.base_fraction = share})[method].mean.value / kDegree;
+  };
+  EXPECT_DOUBLE_EQ(angle(1, 2), angle(1, 1));
+  EXPECT_DOUBLE_EQ(angle(0.25, 1), angle(1, 1));
+  // Half a pixel of a binary outline at random in 30 columns: 0.5°.
+  EXPECT_NEAR(angle(0.5, 2), RegressionAngle(hollow, 0.5), 0.5);
+  EXPECT_NEAR(angle(0.25, 2), RegressionAngle(hollow, 0.25), 1);
+  EXPECT_LT(angle(0.25, 2), angle(0.5, 2) - 2);
 }
 
 // A triangle of 39.8°, 100 px high, and a disc of 3 px on the plate at its right: one grain made
