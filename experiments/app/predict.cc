@@ -65,9 +65,10 @@ void RunPredict(const PredictArguments& arguments) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : arguments.cases) {
     const analysis::PredictOptions options = OptionsFor(file, arguments);
-    // A queue's own files stand beside the predictions, not among those of the campaign's trials.
+    // A queue's own files stand with the prediction's: another may be made at the same time.
     const analysis::Prediction prediction = analysis::Predict(
-        view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
+        view, options,
+        campaign::MakeParts(view.spec, analysis::PredictionFolder(view.folder.root, options)));
     if (prediction.runs.empty() && prediction.num_failed > 0) {
       if (arguments.json) std::cout << base::JsonText(list, 2) << std::endl;
       throw base::Error(file + ": every run failed, the last: " + prediction.failure);

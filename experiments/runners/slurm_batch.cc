@@ -122,6 +122,9 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
     out << " || exit 1\n";
   }
   for (const std::string& line : options.setup) out << line << '\n';
+  // The set-up may have gone elsewhere, or have asked that a failing command ends the script.
+  out << "set +eu\n"
+      << "cd \"$folder\" || exit 1\n";
   out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n";
   for (const auto& [name, value] : kSharingRanks) out << "export " << name << '=' << value << '\n';
   out << "trap - EXIT TERM\n"

@@ -11,7 +11,7 @@ import sqlite3
 import sys
 
 from . import program
-from ._core import ConfigError, decode_image, is_worked_on
+from ._core import ConfigError, Error, decode_image, is_worked_on
 from .plain import plain
 
 
@@ -84,12 +84,17 @@ class Campaign:
             raise FileNotFoundError(f"{self.folder}: holds no campaign; `talus calibrate SPEC` begins one")
 
     def _query(self, text, *values):
-        file = (self.folder.resolve() / "journal.sqlite").as_uri()
-        journal = sqlite3.connect(file + "?mode=ro", uri=True)
+        file = self.folder.resolve() / "journal.sqlite"
+        # SQLite makes files beside it, which an archived folder may not take.
+        is_archived = not os.access(file.parent, os.W_OK) and not file.with_name(file.name + "-wal").exists()
         try:
-            return journal.execute(text, values).fetchall()
-        finally:
-            journal.close()
+            journal = sqlite3.connect(file.as_uri() + "?mode=ro" + ("&immutable=1" if is_archived else ""), uri=True)
+            try:
+                return journal.execute(text, values).fetchall()
+            finally:
+                journal.close()
+        except sqlite3.Error as error:
+            raise Error(f"{file}: cannot be read: {error}") from error
 
     @property
     def name(self):

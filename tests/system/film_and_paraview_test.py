@@ -70,6 +70,11 @@ def check_film(talus, root):
     assert "has not written" in said and (root / "mine/cat.gif").read_bytes() == b"GIF89a cat;", said
     run(talus, "simulate", root / "case.json", "--out", root / "heap", "--film", film, "--quiet")
     assert film.read_bytes() == gif
+    # Another case's result was replaced, which nobody had asked for.
+    (root / "another.json").write_text(json.dumps(CASE | {"seed": 77}))
+    said = run(talus, "simulate", root / "another.json", "--out", root / "heap", "--film", folder, status=2)
+    assert "holds the result of another input" in said and film.read_bytes() == gif, said
+    assert json.loads((root / "heap/result.json").read_text())["input_hash"] == plain["input_hash"]
     (root / "scene.json").write_text('{"materials": [{}]}')
     said = run(talus, "simulate", root / "scene.json", "--out", root / "scene", "--film", film, status=2)
     assert "--film is for the case of a bulk test" in said, said

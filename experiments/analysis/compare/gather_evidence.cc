@@ -96,11 +96,13 @@ imaging::Profile ReadReference(const journal::ExperimentRecord& record) {
   return aehp;
 }
 
-// The finest scale factor of the search: what others say of a set is biased by their grains.
+// The finest scale factor of the search that says something, 1 where none does: what others say of
+// a set is biased by their grains.
 double FinestOfSearch(const std::vector<journal::TrialRecord>& trials) {
   double finest = std::numeric_limits<double>::infinity();
   for (const journal::TrialRecord& t : trials) {
-    if (t.kind != journal::TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
+    const bool tells = t.status == journal::TrialStatus::kOk;
+    if (tells && t.kind != journal::TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
   }
   return std::isfinite(finest) ? finest : 1;
 }

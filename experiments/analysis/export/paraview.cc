@@ -52,22 +52,25 @@ std::int64_t TrialToShow(const fs::path& campaign) {
     if (trial.status != journal::TrialStatus::kOk || trial.experiment != 0) continue;
     const bool confirms = trial.kind == journal::TrialKind::kConfirm;
     if (confirms && answer && IsOfAnswer(trial, *answer)) return trial.id;
-    const double value =
-        references[static_cast<std::size_t>(trial.experiment)].Value(trial).value_or(0);
     if (trial.scale_factor != spec.coarse_graining.scale_factor) continue;
-    if (best && value >= least) continue;
+    const campaign::Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
+    const std::optional<double> value = reference.Value(trial);
+    if (!value && reference.has_image()) continue;  // an angle that is not defined, say
+    if (best && value.value_or(0) >= least) continue;
     best = trial.id;
-    least = value;
+    least = value.value_or(0);
   }
   if (!best) throw base::Error(campaign.string() + ": no trial has succeeded yet");
   return *best;
 }
 
-// Walls where the grains came to rest: a tube was lifted off by then.
+// Walls where the grains came to rest: a tube was lifted off by then, and gates were opened. What
+// else moves stands where it began.
 std::vector<engine::Wall> WallsOf(const rigs::Case& rig_case, double top) {
   const rigs::RigEntry& entry = rigs::EntryOf(rig_case);
   std::vector<engine::Wall> walls =
       entry.walls(rig_case, rigs::FilledHeight(rig_case, entry.vessel(rig_case)));
+  std::erase_if(walls, [](const engine::Wall& wall) { return wall.name.ends_with("gate"); });
   if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) return walls;
   for (engine::Wall& wall : walls) {
     if (auto* tube = std::get_if<engine::OpenCylinder>(&wall.shape)) tube->base.z = top;

@@ -40,8 +40,10 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
   }
   std::optional<Goal> goal;
   if (request.goal) {
-    goal = SimulateGoal(view, *request.goal,
-                        campaign::MakeParts(view.spec, PredictFolder(view.folder.root)));
+    goal = SimulateGoal(
+        view, *request.goal,
+        campaign::MakeParts(view.spec,
+                            PredictionFolder(view.folder.root, {.file = request.goal->file})));
   }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
   NextTable table = RankNext(

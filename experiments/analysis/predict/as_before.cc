@@ -39,8 +39,7 @@ std::string SourceToKeep(const PredictionDesign& stored, const PredictionDesign&
 
 PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options) {
   namespace fs = std::filesystem;
-  const fs::path root =
-      PredictFolder(view.folder.root) / base::FileWord(options.file.stem().string());
+  const fs::path root = PredictionFolder(view.folder.root, {.file = options.file});
   const auto design = campaign::ReadRecordFile<PredictionDesign>(root / "design.json");
   const fs::path file = root / "prediction.json";
   if (!design || !fs::exists(file)) return options;

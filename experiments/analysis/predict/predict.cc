@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <utility>
@@ -66,7 +67,7 @@ class Predictor {
     }
     // What is wrong with a set shows before anything is written.
     if (num_draws_ == 1) one_set_ = OneSet(view, options_);
-    root_ = PredictFolder(view.folder.root) / FolderName();
+    root_ = PredictionFolder(view.folder.root, options_);
   }
 
   Prediction Run() {
@@ -107,19 +108,6 @@ class Predictor {
 
   PredictionRuns NoRuns() const {
     return {design_.weights, RunsOf(stages_, design_.weights.size()), ScaleFactor()};
-  }
-
-  std::string FolderName() const {
-    const std::string name = base::FileWord(case_.name);
-    switch (options_.By()) {
-      case PredictedBy::kPosterior:
-        return name;
-      case PredictedBy::kRecommended:
-        return name + "-recommended";
-      case PredictedBy::kSet:
-        return name + "-set";
-    }
-    return name;
   }
 
   std::int64_t LastTrial() const {
@@ -362,6 +350,13 @@ class Predictor {
   std::vector<FlowRegime> regimes_;
 };
 
+// A value as it was typed, in a file's name: "2 uJ/m^2" has a slash.
+std::string PlainWord(std::string value) {
+  std::ranges::replace_if(
+      value, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
+  return value;
+}
+
 PredictOptions CheckedOptions(const JointView& view, const PredictOptions& options) {
   CheckOptions(options);
   return options.as_before ? AsBefore(view, options) : options;
@@ -370,6 +365,17 @@ PredictOptions CheckedOptions(const JointView& view, const PredictOptions& optio
 }  // namespace
 
 fs::path PredictFolder(const fs::path& campaign) { return fs::absolute(campaign) / "predict"; }
+
+fs::path PredictionFolder(const fs::path& campaign, const PredictOptions& options) {
+  std::string name = base::FileWord(options.file.stem().string());
+  if (options.By() == PredictedBy::kRecommended) name += "-recommended";
+  char before = '-';
+  for (const auto& [parameter, value] : options.set) {
+    name += before + parameter + "=" + PlainWord(value);
+    before = ',';
+  }
+  return PredictFolder(campaign) / name;
+}
 
 void CheckPrediction(const JointView& view, const PredictOptions& options) {
   Predictor(view, CheckedOptions(view, options), {});

@@ -20,7 +20,9 @@ void CheckPrediction(const campaign::JointView& view, const PredictOptions& opti
 Prediction Predict(const campaign::JointView& view, const PredictOptions& options,
                    campaign::CampaignParts parts);
 
-// DIR/predict, absolute.
+// DIR/predict, absolute, and in it that of one prediction, NAME.
 std::filesystem::path PredictFolder(const std::filesystem::path& campaign);
+std::filesystem::path PredictionFolder(const std::filesystem::path& campaign,
+                                       const PredictOptions& options);
 
 }  // namespace talus::analysis

@@ -49,6 +49,7 @@ struct PredictedSurrogate {
 
 struct PredictedNumber {
   std::string name{};       // with its unit: "angle_deg"
+  std::string unit{};       // "deg"; empty of a pure number
   bool is_usual = false;    // what the rig is made to measure
   int num_defined = 0;      // runs that have it
   std::string undefined{};  // why another has none
@@ -70,7 +71,7 @@ struct PredictedNumber {
   }
 
   static constexpr base::FieldKey kKeys[] = {{"low", "low_90"}, {"high", "high_90"}};
-  TALUS_FIELDS(name, is_usual, num_defined, undefined, mean, low, high, parameters_sd, run_sd,
+  TALUS_FIELDS(name, unit, is_usual, num_defined, undefined, mean, low, high, parameters_sd, run_sd,
                parameters_share, by_draw, by_run, surrogate, measured);
 };
 

@@ -164,6 +164,14 @@ std::vector<double> PredictionRuns::ByRun(const std::string& name) const {
   return values;
 }
 
+std::string PredictionRuns::UnitOf(const std::string& name) const {
+  for (const Run& run : runs_) {
+    const journal::MetricRecord* scalar = run.output ? Find(*run.output, name) : nullptr;
+    if (scalar != nullptr && scalar->unit != "-") return scalar->unit;
+  }
+  return {};
+}
+
 int PredictionRuns::SeedsOfADraw() const {
   return static_cast<int>(std::ranges::count_if(plan_, [&](const PlannedRun& run) {
     return run.draw == 0 && run.scale_factor == scale_factor_;
@@ -196,6 +204,7 @@ std::vector<std::optional<Spread>> PredictionRuns::Summarise(Prediction& predict
       spread.emplace(values, rigs::BoundsOf(name));
       number = Describe(name, values, *spread);
     }
+    number.unit = UnitOf(name);
     number.by_run = ByRun(name);
     number.undefined = std::move(undefined);
     prediction.numbers.push_back(std::move(number));
@@ -220,7 +229,10 @@ void PredictionRuns::Compare(const MeasuredProcess& measured,
   for (const campaign::ScalarSpec& scalar : measured.numbers) {
     const auto number =
         std::ranges::find(prediction.numbers, scalar.metric, &PredictedNumber::name);
-    if (number == prediction.numbers.end()) continue;
+    if (number == prediction.numbers.end()) {
+      prediction.notes.push_back(scalar.key + " is measured, and no run of this case reports it");
+      continue;
+    }
     const std::optional<Spread>& spread =
         spreads[static_cast<std::size_t>(number - prediction.numbers.begin())];
     if (spread) number->measured = Judge(scalar, *spread, *number, SeedsOfADraw());

@@ -54,6 +54,7 @@ class PredictionRuns {
   DrawValues ValuesOf(const std::string& name, double scale_factor, std::string& undefined) const;
   // By those runs that have ended well.
   std::vector<double> ByRun(const std::string& name) const;
+  std::string UnitOf(const std::string& name) const;  // empty where no run has it
   int SeedsOfADraw() const;
   std::optional<MeasuredImage> CompareImage(const imaging::Profile& measured) const;
 

@@ -24,9 +24,13 @@ struct TitleAndUnit {
   std::string title;
   rigs::ShownUnit unit;
 
-  explicit TitleAndUnit(const std::string& name)
-      : title(rigs::FindObservable(name) != nullptr ? rigs::FindObservable(name)->key : name),
-        unit(rigs::ShownUnitOf(rigs::UnitOfObservable(name))) {}
+  explicit TitleAndUnit(const PredictedNumber& number)
+      : title(number.name), unit(rigs::ShownUnitOf(number.unit)) {
+    const rigs::ObservableInfo* const known = rigs::FindObservable(number.name);
+    if (known == nullptr) return;
+    title = known->key;
+    unit = rigs::ShownUnitOf(rigs::UnitOfObservable(number.name));
+  }
 
   std::string Text(double x, int digits = 4) const {
     return base::PlainNumber(unit.per_unit * x, digits);
@@ -70,7 +74,7 @@ std::string SharesText(const PredictedNumber& number, bool many_draws) {
 // By whom the number is told, and how far off either is of draws that were left out.
 std::string LeftOutText(const Prediction& prediction, const PredictedNumber& number) {
   if (!number.surrogate) return "";
-  const TitleAndUnit shown(number.name);
+  const TitleAndUnit shown(number);
   const PredictedSurrogate& s = *number.surrogate;
   const std::string errors = " misses a draw left out by " + shown.Text(s.left_out_error, 2) +
                              shown.Unit() + ", the other draws' mean by " +
@@ -98,7 +102,7 @@ std::string ScaleFactorsText(const Prediction& prediction) {
 std::string MeasuredText(const Prediction& prediction, const PredictedNumber& number,
                          const std::vector<journal::ParameterRecord>& parameters) {
   const MeasuredThere& m = *number.measured;
-  const TitleAndUnit shown(number.name);
+  const TitleAndUnit shown(number);
   std::string text =
       "    measured " + shown.Text(m.value) + " ± " + shown.Text(m.standard_error) + shown.Unit();
   if (!std::isfinite(m.low)) return text + "; one run does not tell how far others lie from it\n";
@@ -158,10 +162,10 @@ std::string WhatText(const Prediction& prediction) {
 
 }  // namespace
 
-std::string NumberTitle(const PredictedNumber& number) { return TitleAndUnit(number.name).title; }
+std::string NumberTitle(const PredictedNumber& number) { return TitleAndUnit(number).title; }
 
 std::string NumberText(const PredictedNumber& number) {
-  const TitleAndUnit shown(number.name);
+  const TitleAndUnit shown(number);
   const std::string text = shown.Text(number.mean) + shown.Unit();
   if (!std::isfinite(number.low)) return text;
   return text + ", 90 % of runs in " + shown.Text(number.low) + " … " + shown.Text(number.high);
@@ -190,7 +194,7 @@ std::string PredictionText(const Prediction& prediction,
   }
   for (const std::string& note : prediction.notes) text += "  note: " + note + "\n";
   for (const PredictedNumber& number : prediction.numbers) {
-    const TitleAndUnit shown(number.name);
+    const TitleAndUnit shown(number);
     text += "  " + shown.title +
             std::string(shown.title.size() < 15 ? 16 - shown.title.size() : 1, ' ');
     if (number.num_defined == 0) {

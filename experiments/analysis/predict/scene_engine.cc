@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -42,18 +44,44 @@ int PowderOf(const engine::SceneSpec& scene) {
   return only >= 0 ? only : named;
 }
 
-// Median diameter by volume over all that the scene puts in [m].
-double MedianDiameter(const engine::SceneSpec& scene) {
-  double volume = 0;
-  double sum = 0;
-  const auto add = [&](double v, double diameter) {
-    volume += v;
-    sum += v * diameter;
+// Volume [m³] by diameter [m].
+using Volumes = std::map<double, double>;
+
+// A curve of sizes as so many parts of equal volume: an odd number, so that the median of one curve
+// is its own.
+constexpr int kParts = 101;
+
+// Of the powder's own grains: `density` [kg/m³] makes volumes of the masses that are filled in.
+Volumes VolumesOf(const engine::SceneSpec& scene, int powder, double density) {
+  Volumes volumes;
+  const auto is_powder = [&](const auto& grains) {
+    return engine::MaterialIndex(scene, grains.material) == powder;
   };
-  for (const engine::SphereSpec& s : scene.spheres) add(std::pow(s.diameter, 3), s.diameter);
-  for (const auto& f : scene.fills) add(f.mass, engine::SizeCurve(f.sizes).VolumeQuantile(0.5));
-  for (const auto& p : scene.pours) add(p.mass, engine::SizeCurve(p.sizes).VolumeQuantile(0.5));
-  return volume > 0 ? sum / volume : 0;
+  for (const engine::SphereSpec& s : scene.spheres) {
+    if (is_powder(s)) volumes[s.diameter] += std::numbers::pi / 6 * std::pow(s.diameter, 3);
+  }
+  const auto add = [&](const auto& grains) {
+    if (!is_powder(grains)) return;
+    const engine::SizeCurve curve(grains.sizes);
+    for (int part = 0; part < kParts; ++part) {
+      volumes[curve.VolumeQuantile((part + 0.5) / kParts)] += grains.mass / density / kParts;
+    }
+  };
+  for (const auto& fill : scene.fills) add(fill);
+  for (const auto& pour : scene.pours) add(pour);
+  return volumes;
+}
+
+// Median diameter by volume [m]; 0 of nothing.
+double MedianDiameter(const Volumes& volumes) {
+  double total = 0;
+  for (const auto& [diameter, volume] : volumes) total += volume;
+  double finer = 0;
+  for (const auto& [diameter, volume] : volumes) {
+    finer += volume;
+    if (finer >= total / 2) return diameter;
+  }
+  return 0;
 }
 
 engine::SceneSpec SceneWith(engine::SceneSpec scene, const rigs::Case& rig_case) {
@@ -132,8 +160,9 @@ void ReadScene(const campaign::JointView& view, const base::JsonFile& file,
   rig_case.powder = view.spec.powder;
   rig_case.models = view.spec.models;
   rig_case.pairs = PairsOfGrains(view);
+  const Volumes volumes = VolumesOf(scene, PowderOf(scene), view.spec.powder.material.density);
   const double scale =
-      MedianDiameter(scene) / engine::SizeCurve(view.spec.powder.sizes).VolumeQuantile(0.5);
+      MedianDiameter(volumes) / engine::SizeCurve(view.spec.powder.sizes).VolumeQuantile(0.5);
   rig_case.coarse_graining = {
       .scale_factor = scale,
       .surface_energy_exponent = view.spec.coarse_graining.surface_energy_exponent};

@@ -6,14 +6,15 @@
 #include <numeric>
 
 #include "base/sample.h"
+#include "base/student_factor.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::analysis {
 namespace {
 
-// t quantile over normal quantile at 5 %, to first order in 1/ν (Cornish and Fisher); 1 for ν → ∞.
+// t quantile over normal quantile at 5 %; 1 for ν → ∞.
 double StudentOverNormal(double freedom) {
-  return 1 + (kNinety * kNinety + 1) / (4 * std::max(freedom, 1.0));
+  return base::StudentFactor(std::max(freedom, 1.0), 0.9) / kNinety;
 }
 
 // What differs by rounding alone does not differ.

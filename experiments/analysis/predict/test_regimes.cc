@@ -42,7 +42,8 @@ std::optional<std::vector<FlowRegime>> TestRegimes(const campaign::JointView& vi
          .scale_factor = NearestScaleFactor(view.spec.coarse_graining.Levels(), tests.scale_factor),
          .experiment = static_cast<int>(runs.size())},
         std::nullopt);
-    const fs::path own = tests.prediction / "tests" / base::FileWord(experiment.name);
+    const fs::path own = tests.prediction / "tests" /
+                         (std::to_string(runs.size() + 1) + "_" + base::FileWord(experiment.name));
     runs.push_back(
         {.folder = FolderOf(rig_case, own, predictions, *parts.engine), .rig_case = rig_case});
     names.push_back(experiment.name);

@@ -90,10 +90,12 @@ Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
       const engine::RunCheckpoint checkpoint =
           engine::Unpack(base::ReadFile(path, engine::kLargestCheckpoint));
       if (checkpoint.input_hash != job.input_hash) RefuseFolder(options.folder, "checkpoint");
-      return {.run = job.go_on(checkpoint),
-              .earlier = checkpoint.timing,
-              .message = "goes on from " + path.string(),
-              .goes_on = true};
+      if (!job.from_start) {
+        return {.run = job.go_on(checkpoint),
+                .earlier = checkpoint.timing,
+                .message = "goes on from " + path.string(),
+                .goes_on = true};
+      }
     } catch (const base::ConfigError&) {
       throw;
     } catch (const base::Error& error) {  // the result is the same, only later
@@ -226,7 +228,7 @@ void DriveRun(const RunJob& job, const RunFolderOptions& options) {
   RequireOwnFolder(job, folder);
   base::MakeOutputFolder(folder);
   const RunLock lock(folder);
-  if (!options.fresh && IsDone(job, folder)) {
+  if (!options.fresh && IsDone(job, folder) && !job.from_start) {
     RunLog(folder, options.quiet).Line(folder.string() + ": is done already");
     return;
   }

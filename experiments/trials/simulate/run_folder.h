@@ -29,6 +29,7 @@ struct RunJob {
   std::function<void()> write = [] {};
   // What a run that goes on from a checkpoint lacks; empty if nothing.
   std::string lost_at_checkpoint{};
+  bool from_start = false;  // what it shows begins there: neither result nor checkpoint will do
 };
 
 struct RunFolderOptions {

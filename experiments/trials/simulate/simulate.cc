@@ -47,14 +47,13 @@ void SimulateScene(base::JsonFile input, const SimulateOptions& all) {
 }
 
 void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
-  RunFolderOptions options = all.run;
+  const RunFolderOptions& options = all.run;
   const rigs::Case rig_case = rigs::LoadCase(input);
   std::optional<Film> film;
   std::string lost;
   if (!all.film.empty()) {
     ClaimFilm(all.film);
     film.emplace(all.film, rig_case, FilmSize{});
-    options.fresh = true;  // a film begins with the filling
   } else if (rig_case.outputs.film) {
     film.emplace(options.folder / kTrialFilmName, rig_case, kTrialFilm);
     lost = "the film begins there: what came before was not kept";
@@ -70,6 +69,7 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
                  [&](const engine::RunCheckpoint& checkpoint) {
                    return std::make_unique<rigs::RigRun>(rig_case, options.folder, checkpoint);
                  }};
+  job.from_start = !all.film.empty();  // a film begins with the filling
   if (film) {
     job.look = [&](const engine::Run& run) { film->Look(static_cast<const rigs::RigRun&>(run)); };
     job.write = [&] { film->Write(); };

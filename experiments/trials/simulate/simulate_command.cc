@@ -10,6 +10,7 @@
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
 #include "base/files/output_folder.h"
+#include "base/interrupt.h"
 #include "base/json/json_text.h"
 #include "base/version.h"
 #include "experiments/runners/local_runner.h"
@@ -67,8 +68,16 @@ void RunCommand(CommandEngine& engine, int threads, const fs::path& folder) {
   job.folder = fs::absolute(folder);
   job.command = engine.Command(folder);
   runner.Submit({&job, 1});
+  const base::InterruptGuard interrupt;
   std::vector<runners::FinishedJob> finished;
-  while (finished.empty()) finished = runner.Wait(3600);
+  bool is_asked = false;
+  while (finished.empty()) {
+    finished = runner.Wait(3600);
+    if (is_asked || interrupt.Asked() == base::Interrupt::kNone) continue;
+    is_asked = true;
+    runner.Cancel(job.id);
+  }
+  if (is_asked) throw base::Interrupted("interrupted; the same command begins it anew");
   if (finished.front().ok()) return;
   const std::string log = LastLogLines(folder);
   throw base::Error("the command failed: " + finished.front().reason +
@@ -102,6 +111,8 @@ void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOpt
   try {
     if (!was_complete) RunCommand(engine, command_case.heap.threads, folder);
     output = engine.Collect(command_case.heap, folder);
+  } catch (const base::Interrupted&) {
+    throw;
   } catch (const base::Error& error) {
     WriteFailure(folder, error.what());
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is

@@ -104,7 +104,8 @@ TEST_F(PredictTest, AnotherCaseOfTheSameFileNameIsRefused) {
   fs::rename(first, scratch_.path() / "täps.json");
   Run(set(scratch_.path() / "elsewhere/taps.json"));  // the other is gone
   Run(set(scratch_.path() / "täps.json"));
-  EXPECT_TRUE(fs::exists(folder_ / "predict/täps-set/prediction.json"));
+  EXPECT_TRUE(fs::exists(folder_ /
+                         "predict/täps-rolling_friction=0.2,sliding_friction=0.4/prediction.json"));
 }
 
 // Coarse grains add 40 kg/m³ for each 1 of the scale factor, ten times the scatter of a run.
@@ -183,7 +184,8 @@ TEST_F(PredictTest, OneSetHasNoUncertaintyOfParameters) {
   ASSERT_EQ(set.draws.size(), 1u);
   EXPECT_EQ(set.numbers[0].parameters_sd, 0);
   EXPECT_NEAR(set.numbers[0].mean, 1550 - 350 * 0.2, 5);
-  EXPECT_TRUE(fs::exists(folder_ / "predict/taps-set/prediction.json"));
+  EXPECT_TRUE(fs::exists(folder_ /
+                         "predict/taps-rolling_friction=0.2,sliding_friction=0.4/prediction.json"));
   const Prediction best = Run({.file = Taps(), .recommended = true});
   EXPECT_EQ(best.draws[0].values[0], Result(folder_).parameters[0].value);
 }
@@ -368,6 +370,25 @@ TEST_F(PredictTest, ASceneIsFilledWithTheCampaignsPowder) {
   EXPECT_NE(spec.materials[1].material.sliding_friction, 0.31);
   EXPECT_EQ(spec.seed, 9u);
   EXPECT_THROW(ReadPredictedCase(*view_, file, 2, 1), base::ConfigError);
+}
+
+// γ grows with the grains of the powder: those of other materials do not count, and a mass filled
+// in counts as the volume that it is. 1.5 mg of 2500 kg/m³ are 0.6 mm³ of 0.4 mm; a sphere of 1.2
+// mm has 0.9 mm³, one of 1 mm 0.52.
+TEST_F(PredictTest, ASceneHasTheScaleFactorOfItsPowdersMedianGrain) {
+  const auto scale_factor = [&](const std::string& sphere) {
+    const fs::path file = Write("mixed.json", R"({
+      "materials": [{"name": "powder"}, {"name": "steel"}],
+      "spheres": [{"diameter": ")" + sphere + R"( mm", "position": [0, 0, "9 mm"]},
+                  {"diameter": "7 mm", "material": "steel", "position": [0, 0, "15 mm"]}],
+      "fills": [{"mass": "1.5 mg", "sizes": {"kind": "mono", "diameter": "0.4 mm"},
+                 "region": {"shape": "cylinder", "diameter": "4 mm"}}],
+      "walls": [{"shape": "plane", "material": "steel"}], "stop": {"time": "1 ms"}})");
+    return ReadPredictedCase(*view_, file, {}, 1).rig_case.coarse_graining.scale_factor;
+  };
+  ASSERT_EQ(view_->spec.powder.material.density, 2500);
+  EXPECT_DOUBLE_EQ(scale_factor("1"), 1);
+  EXPECT_DOUBLE_EQ(scale_factor("1.2"), 3);
 }
 
 }  // namespace predict_test

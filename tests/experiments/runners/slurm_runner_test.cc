@@ -181,6 +181,20 @@ TEST_F(SlurmRunnerTest, LateResultIsWaitedFor) {
   EXPECT_EQ(finished[0].host, "node7");
 }
 
+// Where the set-up had gone elsewhere the command ran there, and where it had said `set -e` nothing
+// said how a failing one had ended.
+TEST_F(SlurmRunnerTest, ASetUpMayGoElsewhereAndEndAtFailures) {
+  options_.setup = {"cd /", "set -euo pipefail"};
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "touch ran; exit 3")};
+  runner.Submit(jobs);
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kExit);
+  EXPECT_EQ(finished[0].exit_status, 3);
+  EXPECT_TRUE(fs::exists(root_ / "trials/1/ran"));
+}
+
 // It would count as failed trials of the parameters, and teach the search that they fail.
 TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
   options_.setup = {"echo no such module >&2; exit 7"};
