@@ -105,9 +105,23 @@ TEST(PhotoDoubt, ATubeAboveTheHeapIsNotItsPlate) {
 // It was taken for the plate, as the lowest of those about as wide.
 TEST(PhotoDoubt, APedestalNearlyAsWideAsThePlateIsNotThePlate) {
   Scene scene = SmallScene();
-  scene.pedestal = 0.92;
-  const fs::path folder = EmptyFolder("wide_pedestal");
-  WritePng(folder / Name(1, 0), Triangle(scene));
+  for (const double share : {0.92, 0.955, 0.97, 0.985}) {
+    scene.pedestal = share;
+    const fs::path folder = EmptyFolder("wide_pedestal");
+    WritePng(folder / Name(1, 0), Triangle(scene));
+    const Frame frame = MeasureExperiment(Options(folder)).aehp.frame;
+    EXPECT_NEAR(kPlate / frame.pixel_size, 300, 1) << share;
+    EXPECT_NEAR(frame.baseline, scene.baseline, 1) << share;
+  }
+}
+
+// Moist powder that has kept the form of the tube, 2 % wider than the plate, is no plate on one.
+TEST(PhotoDoubt, PowderThatHangsOverTheRimIsNotThePlate) {
+  Scene scene = SmallScene();
+  const fs::path folder = EmptyFolder("column");
+  WritePng(folder / Name(1, 0), Expose(scene, Cover(scene, [&](double along, double up) {
+                                         return up > 0 && up < 100 && std::abs(along) < 153;
+                                       })));
   const Frame frame = MeasureExperiment(Options(folder)).aehp.frame;
   EXPECT_NEAR(kPlate / frame.pixel_size, 300, 1);
 }

@@ -19,6 +19,11 @@ constexpr double kAsWide = 0.95;        // of the widest: powder may hang over t
 constexpr double kNarrower = 0.9;       // of the plate: where its own outline has ended
 constexpr double kLeastThick = 0.015;   // rows with straight sides / width
 constexpr double kOffLine = 0.75;       // where a side has left its line [px]
+// Thickness of a plate on a pedestal nearly as wide / width: of powder that hangs over a rim a few
+// rows may be straight, or a whole column.
+constexpr double kLeastPlate = 0.05;
+constexpr double kLargestPlate = 0.3;
+constexpr int kLedge = 6;  // rows in which an image's blur spreads a step
 
 constexpr double kLeastBelow = 0.1;  // of a hanging area's size: what lies below it as a heap does
 
@@ -189,15 +194,31 @@ std::vector<StraightSides> FindStraightSides(const std::vector<std::optional<Sid
   return found;
 }
 
-std::optional<StraightSides> ChoosePlate(const std::vector<StraightSides>& straight) {
+// Whether the one below, which reaches the picture's lower border, carries the one above as a
+// pedestal does its plate: both sides step in at once, and about as far.
+bool Carries(const StraightSides& below, const StraightSides& above) {
+  if (below.first - above.last - 1 > kLedge) return false;
+  const double thickness = above.num_rows() / above.width();
+  if (thickness < kLeastPlate || thickness > kLargestPlate) return false;
+  const double left = below.left - above.LeftAt(below.first);
+  const double right = above.RightAt(below.first) - below.right;
+  return std::min(left, right) > kOffLine &&
+         std::max(left, right) < 2 * std::min(left, right) + kOffLine;
+}
+
+// The lowest of those about as wide as the widest; its pedestal may be among them.
+std::optional<StraightSides> ChoosePlate(std::vector<StraightSides> straight, int height) {
   double widest = 0;
   for (const StraightSides& sides : straight) widest = std::max(widest, sides.width());
-  std::optional<StraightSides> plate;
-  for (const StraightSides& sides : straight) {
-    const bool thick = sides.last - sides.first + 1 >= kLeastThick * sides.width();
-    if (thick && sides.width() >= kAsWide * widest) plate = sides;
-  }
-  return plate;
+  std::erase_if(straight, [&](const StraightSides& sides) {
+    return sides.num_rows() < kLeastThick * sides.width() || sides.width() < kAsWide * widest;
+  });
+  if (straight.empty()) return std::nullopt;
+  auto plate = straight.rbegin();
+  const auto above = std::next(plate);
+  const bool goes_on = plate->last >= height - 1 - kLedge;  // beyond the picture
+  if (goes_on && above != straight.rend() && Carries(*plate, *above)) plate = above;
+  return *plate;
 }
 
 // Whether the sides are those of a pedestal, whose plate above is wider to both sides and reaches
@@ -232,7 +253,8 @@ double EndOfSide(const PlateSides& sides, double SideEnds::*end, Line line) {
 
 std::optional<PlateSides> FindPlateSides(const BacklitPhoto& photo) {
   Rows rows = FindRows(photo);
-  const std::optional<StraightSides> plate = ChoosePlate(FindStraightSides(rows.sides));
+  const std::optional<StraightSides> plate =
+      ChoosePlate(FindStraightSides(rows.sides), photo.image.height);
   if (!plate) return std::nullopt;
   const bool is_cut = CarriesCutPlate(rows, *plate);
   PlateSides sides{.ends = std::move(rows.sides), .straight = *plate, .is_cut = is_cut};

@@ -27,9 +27,11 @@ struct StraightSides {
   double LeftAt(double row) const { return left + slope * (row - first); }
   double RightAt(double row) const { return right + slope * (row - first); }
   double width() const { return right - left; }  // along the row [px]
+  int num_rows() const { return last + 1 - first; }
 };
 
-// The sides of the plate: of the straight parallel ones about as wide as the widest, the lowest.
+// The sides of the plate: of the straight parallel ones about as wide as the widest, the lowest, or
+// those that this one carries as a pedestal.
 struct PlateSides {
   std::vector<std::optional<SideEnds>> ends;  // in every row of the photograph
   StraightSides straight;
