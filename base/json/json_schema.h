@@ -13,14 +13,16 @@
 
 namespace talus::base {
 
+// `stated`: the value that an enclosing struct gives it, whose members are the defaults; null: its
+// own.
 template <class T>
-nlohmann::ordered_json SchemaOf(const FieldInfo& info);
+nlohmann::ordered_json SchemaOf(const FieldInfo& info, const T* stated = nullptr);
 
 class SchemaWriter {
  public:
   template <class T>
   void operator()(std::string_view key, const T& field, FieldInfo info = {}) {
-    auto schema = SchemaOf<T>(info);
+    auto schema = SchemaOf<T>(info, &field);
     if constexpr (!Visitable<T>) {
       if (!info.required) AddDefault(schema, field);
     }
@@ -71,7 +73,7 @@ struct Element<std::optional<T>> {
 };
 
 template <class T>
-nlohmann::ordered_json SchemaOf(const FieldInfo& info) {
+nlohmann::ordered_json SchemaOf(const FieldInfo& info, [[maybe_unused]] const T* stated) {
   using json = nlohmann::ordered_json;
   json schema;
   if constexpr (HasAlternatives<T>) {
@@ -89,7 +91,7 @@ nlohmann::ordered_json SchemaOf(const FieldInfo& info) {
   } else if constexpr (Visitable<T>) {
     SchemaWriter writer;
     static const T defaults{};  // on the stack GCC 12 takes its optionals for uninitialised
-    T::Visit(defaults, writer);
+    T::Visit(stated != nullptr ? *stated : defaults, writer);
     schema = writer.Take();
   } else if constexpr (NamedEnum<T>) {
     json names = json::array();

@@ -110,13 +110,13 @@ std::string TestText(const campaign::JointView& view, const TestCandidate& test,
     const campaign::CampaignSpec spec = SpecOf(view, test);
     const std::vector<double> levels = view.spec.coarse_graining.Levels();
     const double coarse = campaign::GrainStepsOf(spec, 0, levels.front());
-    text += "    a simulation takes";
+    text += "    core time of a simulation:";
     for (const double factor : levels) {
       text += (factor == levels.front() ? " " : ", ") +
               TimeText(one * campaign::GrainStepsOf(spec, 0, factor) / coarse) +
               " at scale factor " + ShortNumber(factor);
     }
-    text += " of core time\n";
+    text += "\n";
   }
   return text;
 }

@@ -31,7 +31,8 @@ void RefuseRangesOfFixed(const json& root, base::Problems& problems) {
 void RefuseScaleFactor(const json& root, const GrainSizes& sizes, base::Problems& problems) {
   const auto given = root.find("coarse_graining");
   if (given == root.end() || !given->contains("scale_factor") || !sizes.scale_factors) return;
-  problems.Require(sizes.scale_factor == sizes.Levels().back(), "coarse_graining.scale_factor",
+  problems.Require(sizes.scale_factor != 1 || sizes.Levels().back() == 1,
+                   "coarse_graining.scale_factor",
                    "stands beside scale_factors: give one of the two");
 }
 

@@ -281,8 +281,9 @@ void ValidateRanges(const ParameterRanges& ranges, const engine::Material& mater
                        "stands beside the prior of all parameters together: keep one of the two");
     });
   });
-  problems.Require(num_free >= 1 && num_free <= optimizer::kMaxParameters, "", num_free,
-                   "parameters are searched, must be 1 to 6");
+  problems.Require(num_free >= 1 && num_free <= optimizer::kMaxParameters, "",
+                   std::to_string(num_free) + " are searched, must be 1 to " +
+                       std::to_string(optimizer::kMaxParameters));
   problems.Require(num_free == 0 || num_asked > 0, "",
                    "are all nuisances: nothing is asked for; take \"nuisance\" away from one");
 }

@@ -55,7 +55,9 @@ struct FillingRule {
            .doc = "pour: of the mouth above the powder, which it follows; default: half the tube's "
                   "diameter"});
     visit("mouth_diameter", self.mouth_diameter,
-          {.dimension = Dimension::kLength, .doc = "pour: default: 0.6 of the tube's"});
+          {.dimension = Dimension::kLength,
+           .doc = "pour: default: 0.6 of the tube's or four of the largest grains, at most 0.9 of "
+                  "the tube's"});
     visit("rate", self.rate,
           {.dimension = Dimension::kMassRate,
            .doc = "pour: default: as fast as a funnel of this mouth empties"});

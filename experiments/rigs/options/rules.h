@@ -54,7 +54,8 @@ struct PhaseRules {
     visit("settling", self.settling, {.doc = "end of the settling in the tube"});
     visit("lift_max_time", self.lift_max_time,
           {.dimension = base::Dimension::kTime,
-           .doc = "the lifting ends here at the latest; default: twice the filled height"});
+           .doc = "the lifting ends here at the latest; default: when twice the filled height is "
+                  "lifted"});
     visit("heap", self.heap, {.doc = "end of the run, after the tube has cleared the heap"});
     visit("leave_depth", self.leave_depth,
           {.doc = "grains this many largest diameters below the plate leave the scene, > 0"});
