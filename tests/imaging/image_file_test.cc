@@ -34,6 +34,14 @@ TEST(ImageFile, ColourBecomesLuma) {
   EXPECT_EQ(DecodeGrayImage(EncodePng(kPrimaries), "colours").pixels, kLuma);
 }
 
+std::string PngOf(png_image image, const void* samples, const void* palette = nullptr) {
+  png_alloc_size_t size = 0;
+  png_image_write_to_memory(&image, nullptr, &size, 0, samples, 0, palette);
+  std::string bytes(size, '\0');
+  png_image_write_to_memory(&image, bytes.data(), &size, 0, samples, 0, palette);
+  return bytes;
+}
+
 // 16 bits a sample; all samples of a pixel alike but for alpha, which is full.
 std::string DeepPng(int shift, png_uint_32 format = PNG_FORMAT_LINEAR_Y) {
   std::vector<std::uint16_t> samples;
@@ -48,11 +56,7 @@ std::string DeepPng(int shift, png_uint_32 format = PNG_FORMAT_LINEAR_Y) {
   image.width = 37;
   image.height = 21;
   image.format = format;
-  png_alloc_size_t size = 0;
-  png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr);
-  std::string bytes(size, '\0');
-  png_image_write_to_memory(&image, bytes.data(), &size, 0, samples.data(), 0, nullptr);
-  return bytes;
+  return PngOf(image, samples.data());
 }
 
 TEST(ImageFile, SixteenBitsBecomeEight) { EXPECT_EQ(DecodeGrayImage(DeepPng(8), "deep"), Ramp()); }
@@ -89,10 +93,7 @@ TEST(ImageFile, PngWithAPalette) {
   image.height = 1;
   image.format = PNG_FORMAT_RGB_COLORMAP;
   image.colormap_entries = 3;
-  png_alloc_size_t size = 0;
-  png_image_write_to_memory(&image, nullptr, &size, 0, entries.data(), 0, palette.data());
-  std::string bytes(size, '\0');
-  png_image_write_to_memory(&image, bytes.data(), &size, 0, entries.data(), 0, palette.data());
+  const std::string bytes = PngOf(image, entries.data(), palette.data());
   ASSERT_EQ(bytes[24], 2) << "bits a pixel";
   EXPECT_THAT(DecodeGrayImage(bytes, "palette.png").pixels,
               ::testing::ElementsAre(kLuma[2], kLuma[0], kLuma[1]));

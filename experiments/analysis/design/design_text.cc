@@ -12,6 +12,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/next_text.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/plan/usual_cost.h"
 #include "experiments/rigs/case/device_text.h"
@@ -41,21 +42,28 @@ std::string MeritText(const DesignTable& table, const DesignChoice& choice) {
   return text;
 }
 
-std::string SupposedText(const DesignTable& table) {
-  std::string text;
+// What is supposed, as far as it is given.
+struct Supposed {
+  std::vector<journal::ParameterRecord> parameters{};
+  std::vector<double> values{};
+};
+
+Supposed SupposedOf(const DesignTable& table) {
+  Supposed supposed;
   for (std::size_t i = 0; i < table.supposed.size(); ++i) {
     if (std::isnan(table.supposed[i])) continue;
-    const journal::ParameterRecord& p = table.tests.parameters[i];
-    text += (text.empty() ? "" : ", ") + p.name + " " + base::WithUnit(table.supposed[i], p.unit);
+    supposed.parameters.push_back(table.tests.parameters[i]);
+    supposed.values.push_back(table.supposed[i]);
   }
-  return text;
+  return supposed;
 }
 
 // "searched: …", and what is supposed.
 std::string GroundText(const DesignTable& table) {
   std::string text = "searched: " + WidthsText(table.tests, table.tests.width) + "\n";
   if (table.supposed.empty()) return text;
-  return text + "supposed: " + SupposedText(table) +
+  const Supposed supposed = SupposedOf(table);
+  return text + "supposed: " + campaign::SetText(supposed.parameters, supposed.values) +
          "; in order of the share of the volume searched that they are expected to leave\n";
 }
 
@@ -177,9 +185,9 @@ std::string DesignJson(const DesignTable& table) {
   auto json = nlohmann::ordered_json::parse(NextJson(table.tests));
   for (const char* of_campaign : {"after_trial", "simulate_first"}) json.erase(of_campaign);
   json["scale_factor"] = table.scale_factor;
-  for (std::size_t i = 0; i < table.supposed.size(); ++i) {
-    if (std::isnan(table.supposed[i])) continue;
-    json["supposed"][table.tests.parameters[i].name] = table.supposed[i];
+  const Supposed supposed = SupposedOf(table);
+  for (std::size_t i = 0; i < supposed.values.size(); ++i) {
+    json["supposed"][supposed.parameters[i].name] = supposed.values[i];
   }
   json["choices"] = nlohmann::ordered_json::array();
   for (const std::vector<DesignChoice>& choices : table.choices) {

@@ -99,8 +99,8 @@ TEST_F(DesignTest, WhatIsKnownBeforehandCounts) {
   EXPECT_GT(table.tests.width[1], 0.85);
 }
 
-// Drawn heaps and densities differ by the same everywhere, but for noise that is a share of them:
-// the mean over powders that are supposed is about what is expected of any.
+// Of one powder ranges differ by the chance of its measurement alone, of any by the powder, too;
+// bits are of all sets.
 TEST_F(DesignTest, APowderThatIsSupposedLeavesRangesOfItsOwn) {
   const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
   const DesignTable any = Rank(design, {});
