@@ -39,8 +39,10 @@ SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::p
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
       pours_(BuildPours(spec_, simulation_.time_step(), simulation_.num_particles())),
       series_(spec_),
-      check_steps_(CheckSteps(spec.stop, simulation_.time_step())),
-      messages_(SceneWarnings(spec, scene)) {
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
+  for (const std::string& warning : SceneWarnings(spec, scene)) {
+    messages_.push_back("warning: " + warning);
+  }
   state_.num_at_start = simulation_.num_particles();
   state_.pours.resize(pours_.size());
 }

@@ -58,7 +58,6 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
       spec.outputs.times.back() > static_cast<double>(*spec.stop.steps) * dt) {
     warnings.push_back("the last of outputs.times comes after stop.steps and is not written");
   }
-  for (std::string& warning : warnings) warning.insert(0, "warning: ");
   return warnings;
 }
 

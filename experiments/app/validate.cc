@@ -197,7 +197,7 @@ void ValidateScene(const base::JsonFile& file, bool) {
             << loaded.scene.particles.size() << "\n  walls             "
             << loaded.scene.walls.size() << '\n';
   for (const std::string& warning : engine::SceneWarnings(loaded.spec, loaded.scene)) {
-    std::cout << "  " << warning << '\n';  // which says that it is one
+    std::cout << "  warning: " << warning << '\n';
   }
 }
 
