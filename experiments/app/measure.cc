@@ -82,6 +82,16 @@ void RefuseIdleFlags(const MeasureFlags& flags) {
   for (const Use& use : uses) refuse(use.given && (use.kinds & kind) == 0, use.flag, why);
 }
 
+// A bare number would be in m or rad, which nobody means here.
+double WithItsUnit(const std::string& flag, const std::string& text, base::Dimension dimension) {
+  if (base::IsBareNumber(text)) {
+    const char* const unit = dimension == base::Dimension::kAngle ? "deg" : "mm";
+    throw base::ConfigError(flag + ": " + text + " has no unit; write " + text + unit + " for " +
+                            text + " " + unit);
+  }
+  return FlagQuantity(flag, text, dimension);
+}
+
 // What only one kind of test has stands with it alone.
 std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   if (!flags.drum) {
@@ -96,10 +106,10 @@ std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   }
   imaging::DrumPhotos options{
       .photos = {},
-      .diameter = FlagQuantity("--diameter", flags.diameter, base::Dimension::kLength)};
+      .diameter = WithItsUnit("--diameter", flags.diameter, base::Dimension::kLength)};
   if (!flags.circle_diameter.empty()) {
     options.circle_diameter =
-        FlagQuantity("--circle-diameter", flags.circle_diameter, base::Dimension::kLength);
+        WithItsUnit("--circle-diameter", flags.circle_diameter, base::Dimension::kLength);
   }
   options.turning = base::EnumNamed<imaging::Turning>(flags.turning);
   return options;
@@ -110,16 +120,16 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   imaging::ExperimentOptions options;
   if (!flags.plate_diameter.empty()) {
     options.plate_diameter =
-        FlagQuantity("--plate-diameter", flags.plate_diameter, Dimension::kLength);
+        WithItsUnit("--plate-diameter", flags.plate_diameter, Dimension::kLength);
   }
   options.pattern = flags.pattern;
   if (!flags.frame.empty()) {
     options.frame = imaging::ReadFrame(flags.frame);
     if (flags.plate_diameter.empty()) options.plate_diameter = options.frame->plate_diameter;
   }
-  if (!flags.tilt.empty()) options.tilt = FlagQuantity("--tilt", flags.tilt, Dimension::kAngle);
+  if (!flags.tilt.empty()) options.tilt = WithItsUnit("--tilt", flags.tilt, Dimension::kAngle);
   if (!flags.pixel_size.empty()) {
-    options.pixel_size = FlagQuantity("--pixel-size", flags.pixel_size, Dimension::kLength);
+    options.pixel_size = WithItsUnit("--pixel-size", flags.pixel_size, Dimension::kLength);
   }
   options.threshold = flags.threshold;
   options.powder = base::EnumNamed<imaging::PowderLook>(flags.powder).value_or(options.powder);

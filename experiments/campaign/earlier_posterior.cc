@@ -33,11 +33,7 @@ struct Earlier {
 
 Earlier ReadEarlier(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
-  const std::filesystem::path path = journal::JournalPath(root);
-  if (!std::filesystem::exists(path)) {
-    throw base::ConfigError(root.string() + ": is no folder of a campaign");
-  }
-  journal::Journal journal = journal::Journal::OpenReadOnly(path);
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(root));
   if (journal.Progress().result_json.empty() || !std::filesystem::exists(folder.posterior())) {
     throw base::ConfigError(root.string() + ": has no posterior yet: let that campaign finish");
   }

@@ -255,7 +255,9 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
                             const std::function<void(const CampaignSpec&)>& check) {
   const CampaignFolder folder{fs::absolute(root)};
   if (!fs::is_directory(folder.root)) {
-    throw base::ConfigError(root.string() + ": is no folder of a campaign");
+    throw base::ConfigError(root.string() +
+                            ": is no folder of a campaign; name the one that `talus calibrate` "
+                            "wrote, or begin one: `talus calibrate SPEC`");
   }
   if (!fs::exists(folder.campaign()) && !fs::exists(journal::JournalPath(folder.root))) {
     throw base::ConfigError(root.string() +

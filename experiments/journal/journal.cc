@@ -59,6 +59,14 @@ void RefuseForeignFile(const std::filesystem::path& path) {
                           "a campaign");
 }
 
+[[noreturn]] void RefuseFolder(const std::filesystem::path& campaign) {
+  const bool is_folder = std::filesystem::is_directory(campaign);
+  throw base::ConfigError(campaign.string() +
+                          (is_folder ? ": holds no campaign (journal.sqlite is missing)"
+                                     : ": is no folder of a campaign") +
+                          "; name the one that `talus calibrate` wrote");
+}
+
 std::string WhatIsBroken(Database& database) {
   const std::string damage = DamagedTables(database);
   return damage.empty() ? BrokenSeal(database) : damage;
@@ -137,11 +145,7 @@ Journal Journal::Open(const std::filesystem::path& path) {
 }
 
 Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) {
-    throw base::ConfigError(path.string() +
-                            ": is not there; name the folder of a campaign, as talus calibrate "
-                            "prints it");
-  }
+  if (!std::filesystem::exists(path)) RefuseFolder(path.parent_path());
   Database database(path, Database::Mode::kReadOnly);
   CheckThatItIsAJournal(database, path);
   database.Execute("BEGIN");  // another process may be writing

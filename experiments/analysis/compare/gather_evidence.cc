@@ -233,19 +233,11 @@ void AddVersions(const journal::CampaignRecord& record, Evidence& evidence) {
                        {"seeds", SeedsText(evidence.trials.size() + evidence.of_others.size())}};
 }
 
-std::shared_ptr<journal::Journal> OpenJournal(const std::filesystem::path& campaign) {
-  const std::filesystem::path path = journal::JournalPath(campaign);
-  if (!std::filesystem::exists(path)) {
-    throw base::ConfigError(campaign.string() + ": holds no campaign (" + path.filename().string() +
-                            " is missing); name the folder that `talus calibrate` wrote");
-  }
-  return std::make_shared<journal::Journal>(journal::Journal::OpenReadOnly(path));
-}
-
 }  // namespace
 
 Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment) {
-  const auto journal = OpenJournal(campaign);
+  const auto journal = std::make_shared<journal::Journal>(
+      journal::Journal::OpenReadOnly(journal::JournalPath(campaign)));
   const journal::CampaignRecord record = journal->Campaign();
   const bool worked_on = campaign::IsWorkedOn(campaign);  // asked before what it has written
   const journal::ProgressRecord progress = journal->Progress();
