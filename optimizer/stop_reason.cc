@@ -21,7 +21,8 @@ std::string TextOf(const StopReason& r) {
     case StopRule::kGain:
       return gain + Rounded(r.limit) + " x the noise sd of one evaluation, " + Rounded(r.scale);
     case StopRule::kExactGain:
-      return gain + Rounded(r.limit) + " x the mean value less the lowest, " + Rounded(r.scale);
+      return gain + Rounded(r.limit) +
+             " x the lower quartile of the design's values less the lowest, " + Rounded(r.scale);
     case StopRule::kShare:
       return "more simulations would hardly narrow the answer (no number of them a range by more "
              "than " +

@@ -13,7 +13,8 @@ namespace talus::optimizer {
 enum class StopRule {
   kGain,           // `value`, the most that going on could gain, is below `limit` × `scale`, the
                    // noise sd of one evaluation
-  kExactGain,      // … is below `limit` × `scale`, the mean value less the lowest
+  kExactGain,      // … is below `limit` × `scale`, the lower quartile of the design's values
+                   // less the lowest
   kShare,          // `value`, the largest share of its width that any number of evaluations would
                    // take from a range, is below `limit`
   kConverged,      // the search `name` has converged

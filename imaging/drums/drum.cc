@@ -236,6 +236,7 @@ void RequirePowderBelow(const GrayImage& photo, const DrumMap& map, const std::s
 void ReadTurning(const DrumPhotos& options, MeasuredDrum& drum) {
   const Measured& slope = drum.surface.slope_angle;
   drum.angle = slope;
+  drum.turning = options.turning;
   if (!slope.defined()) return;
   drum.turning = slope.value >= 0 ? Turning::kClockwise : Turning::kCounterClockwise;
   drum.angle.value = std::abs(slope.value);
@@ -291,7 +292,7 @@ Profile DrumProfile(const MeasuredDrum& drum) {
                             .baseline = circle.center_y + drum.map.drum_radius,
                             .plate_diameter = 2 * drum.map.drum_radius * drum.pixel_size,
                             .disc_diameter = 2 * drum.map.inner_radius * drum.pixel_size}};
-  if (drum.turning == Turning::kClockwise) return profile;
+  if (drum.turning != Turning::kCounterClockwise) return profile;
   profile.frame.center_x = width - circle.center_x;
   for (auto row = profile.image.pixels.begin(); row != profile.image.pixels.end(); row += width) {
     std::reverse(row, row + width);

@@ -6,8 +6,11 @@
 
 namespace talus::optimizer {
 
-// Jansen's estimators [jansen1999]: with A and B independent samples and Aᵢ = A with column i of B,
-//   total = ½ mean (f(A) - f(Aᵢ))² / V,   first = 1 - ½ mean (f(B) - f(Aᵢ))² / V.
+// With A and B independent samples and Aᵢ = A with column i of B, the estimators of
+//   total = ½ mean (f(A) - f(Aᵢ))² / V              [jansen1999],
+//   first = mean (f(B) - mean f) (f(Aᵢ) - f(A)) / V   [saltelli2010].
+// The second is 0 for a coordinate without an effect, however small the sample; no first exceeds
+// its total.
 SobolIndices EstimateSobolIndices(
     const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values,
     const SobolSample& sample) {
@@ -24,9 +27,10 @@ SobolIndices EstimateSobolIndices(
     mixed.col(i) = b.col(i);
     const Eigen::ArrayXd at_mixed = values(mixed);
     const double total = 0.5 * (at_a - at_mixed).square().mean();
-    const double others = 0.5 * (at_b - at_mixed).square().mean();
-    indices.first.push_back(variance > 0 ? std::clamp(1 - others / variance, 0.0, 1.0) : 0);
+    const double alone = ((at_b - mean) * (at_mixed - at_a)).mean();
     indices.total.push_back(variance > 0 ? std::clamp(total / variance, 0.0, 1.0) : 0);
+    indices.first.push_back(variance > 0 ? std::clamp(alone / variance, 0.0, indices.total.back())
+                                         : 0);
   }
   return indices;
 }

@@ -19,6 +19,17 @@ constexpr double kReplicateDistance = 0.005;
 
 constexpr int kMostTries = 10000;
 
+// The lower quartile of the first values, those of the design: a penalty, which some commands
+// return where others would fail, does not move it, nor do a search's many values near its optimum.
+double QuartileOfFirst(const Eigen::VectorXd& values, int num_first) {
+  const Eigen::Index count =
+      num_first > 0 ? std::min<Eigen::Index>(num_first, values.size()) : values.size();
+  std::vector<double> first(values.begin(), values.begin() + count);
+  const auto quartile = first.begin() + count / 4;
+  std::nth_element(first.begin(), quartile, first.end());
+  return *quartile;
+}
+
 // Points that the domain, no list, contains, one a row; none where constraints leave next to none.
 Eigen::MatrixXd SomeWithin(const Domain& domain, std::uint64_t seed) {
   constexpr int kNumCandidates = 1000;
@@ -185,7 +196,8 @@ bool SearchRecord::MayStop(int num_evaluations) const {
 
 std::optional<StopReason> SearchRecord::ReasonToStop(double gain, double noise) const {
   if (noise_free()) {
-    return StopByExactGain(gain, history_.values.mean() - history_.values.minCoeff());
+    return StopByExactGain(
+        gain, QuartileOfFirst(history_.values, design_.size()) - history_.values.minCoeff());
   }
   return StopByGain(gain, noise, options_.stop_multiple);
 }

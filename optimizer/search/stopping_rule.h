@@ -2,7 +2,7 @@
 // should go on. A campaign's budget ends it at the latest (campaign/plan/planner.h).
 //
 //   one objective, noisy      StopByGain: what is left to gain is small against the noise
-//   one objective, exact      StopByExactGain: … against the values seen
+//   one objective, exact      StopByExactGain: … against the design's values
 //   several grain sizes       StopByOutlook: no number of them would narrow the ranges much
 //   or experiments
 #pragma once
@@ -18,7 +18,7 @@ namespace talus::optimizer {
 // one evaluation, same unit.
 std::optional<StopReason> StopByGain(double gain, double noise, double stop_multiple);
 
-// `typical`: mean of the values less the lowest.
+// `typical`: lower quartile of the design's values less the lowest of all.
 std::optional<StopReason> StopByExactGain(double gain, double typical);
 
 // What more evaluations can do to the ranges of what is asked for: the share of its width that each

@@ -269,6 +269,11 @@ TEST(Drum, CentrifugingPowderIsNotTakenForUpsideDown) {
   const MeasuredDrum drum = MeasureDrum({.photos = {file}, .diameter = 0.084});
   EXPECT_FALSE(drum.surface.slope_angle.defined());
   EXPECT_FALSE(drum.surface.fill.defined());  // that of a flat surface was said
+  EXPECT_FALSE(drum.turning);                 // nobody can see it
+  EXPECT_EQ(
+      MeasureDrum({.photos = {file}, .diameter = 0.084, .turning = Turning::kCounterClockwise})
+          .turning,
+      Turning::kCounterClockwise);
 }
 
 // Far thicker at the top, and still all around.

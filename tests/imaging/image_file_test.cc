@@ -196,10 +196,24 @@ TEST(ImageFile, SixteenBitTiffSaysWhatIsItsAlpha) {
   EXPECT_NEAR(level(100, EXTRASAMPLE_ASSOCALPHA), 157, 1);  // 200 × 128/255
   EXPECT_NEAR(level(200, EXTRASAMPLE_UNSPECIFIED), 60, 1);  // 0.299 × 200
   // White is 0: that is not so of alpha.
-  EXPECT_NEAR(ReadGrayImage(WriteTiffPixel<std::uint16_t>({10 * 257, 65535}, PHOTOMETRIC_MINISWHITE,
-                                                          EXTRASAMPLE_UNASSALPHA))
+  EXPECT_NEAR(ReadGrayImage(WriteTiffPixel<std::uint16_t>(
+                                {200 * 257, 65535}, PHOTOMETRIC_MINISWHITE, EXTRASAMPLE_UNASSALPHA))
                   .pixels[0],
-              245, 1);
+              55, 1);
+}
+
+TEST(ImageFile, EightBitTiffSaysWhatIsItsAlpha) {
+  EXPECT_NEAR(ReadGrayImage(WriteTiffPixel<std::uint8_t>({200, 0, 0, 128}, PHOTOMETRIC_RGB,
+                                                         EXTRASAMPLE_UNSPECIFIED))
+                  .pixels[0],
+              60, 1);  // 0.299 × 200
+}
+
+// A camera's 12 bits, 0 white and 4095 black: inverted in 16 bits all of them were nearly white.
+TEST(ImageFile, TwelveBitsAreRecognisedWhereZeroIsWhite) {
+  EXPECT_NEAR(
+      ReadGrayImage(WriteTiffPixel<std::uint16_t>({4000}, PHOTOMETRIC_MINISWHITE, {})).pixels[0],
+      255.0 * 95 / 4095, 1);
 }
 
 // 24 bits, rows padded to four bytes, as Windows writes them: the bottom row first, or the top one

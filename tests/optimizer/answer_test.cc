@@ -127,6 +127,21 @@ TEST(SobolIndices, EqualThoseOfAPolynomial) {
   EXPECT_NEAR(indices.total[2], (z + xz) / all, 0.03);
 }
 
+// 128 rows are what a campaign takes: of so few the means of f(A) and f(B) are correlated by
+// chance.
+TEST(SobolIndices, NoFirstExceedsItsTotal) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const SobolIndices indices = EstimateSobolIndices(
+        [](const Eigen::MatrixXd& p) -> Eigen::VectorXd {
+          return (p.col(0).array() - 0.3).square() * (1 + p.col(1).array());
+        },
+        {.dimension = 3, .num_base = 128, .seed = seed});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(indices.first[i], indices.total[i]) << i;
+    EXPECT_EQ(indices.first[2], 0);
+    EXPECT_EQ(indices.total[2], 0);
+  }
+}
+
 TEST(SobolIndices, AConstantDependsOnNothing) {
   const SobolIndices indices = EstimateSobolIndices(
       [](const Eigen::MatrixXd& p) { return Eigen::VectorXd::Constant(p.rows(), 3); },

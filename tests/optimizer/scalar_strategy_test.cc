@@ -233,6 +233,25 @@ TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
   EXPECT_FALSE(strategy.WhyStop());
 }
 
+// Some commands return a large number where they fail; one such made all that was left to gain look
+// small.
+TEST(ScalarStrategy, APenaltyDoesNotEndAnExactSearch) {
+  const auto with_penalty = [](const Eigen::VectorXd& x) {
+    return x[0] > 0.5 ? 1e6 : (x.array() - 0.3).square().sum();
+  };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    ScalarStrategy strategy({.num_parameters = 2}, {.seed = seed, .exact = true});
+    double best = 1e6;
+    for (int i = 0; i < 40 && !strategy.WhyStop(); ++i) {
+      const Eigen::VectorXd x = strategy.Ask(1, {}).at(0).point;
+      const double value = with_penalty(x);
+      strategy.Tell({.point = x, .value = value, .field = {}});
+      best = std::min(best, value);
+    }
+    EXPECT_LT(best, 1e-3) << seed;
+  }
+}
+
 TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
   ScalarStrategy strategy = Fresh();
   int evaluations = 0;

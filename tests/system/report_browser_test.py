@@ -113,6 +113,9 @@ class ReportInABrowser(unittest.TestCase):
                 if m["method"] == "Network.requestWillBeSent"]
         self.assertTrue(urls or not self.was_loaded)
         self.assertEqual([u for u in urls if not u.startswith(("file:", "data:", "blob:"))], [])
+        standing = self.driver.find_element(By.ID, "standing").text
+        self.assertRegex(standing, r"^\w[\w ]* \d+ simulations|talus resume \S+ goes on\. \d+ sim")
+        self.assertNotRegex(standing, r"null|undefined|\[object")
 
     def check_charts(self, only=None):
         charts = only or self.driver.execute_script("return talusCharts.map((c) => c.id)")

@@ -46,8 +46,13 @@ std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured, co
   return sets;
 }
 
-// The scatter between trials of one set, pooled over the sets; kUndefined without repeats.
-double PooledScatter(const std::vector<Measurement>& measured) {
+// The scatter between trials of one set, pooled over the sets.
+struct Scatter {
+  double sd = kUndefined;  // not known without repeats
+  double freedom = 0;      // degrees of it
+};
+
+Scatter PooledScatter(const std::vector<Measurement>& measured) {
   struct Sums {
     double count = 0, sum = 0, squares = 0;
   };
@@ -65,7 +70,16 @@ double PooledScatter(const std::vector<Measurement>& measured) {
     squares += std::max(0.0, group.squares - group.sum * group.sum / group.count);
     freedom += group.count - 1;
   }
-  return freedom > 0 ? std::sqrt(squares / freedom) : kUndefined;
+  if (!(freedom > 0)) return {};
+  return {.sd = std::sqrt(squares / freedom), .freedom = freedom};
+}
+
+// Two heaps that happen to be alike, all that a campaign may have simulated again, would leave next
+// to no scatter: of so few the model has a say.
+double ScatterWith(const Scatter& repeats, double of_model) {
+  constexpr double kFew = 4;
+  if (repeats.freedom >= kFew) return repeats.sd;
+  return repeats.freedom > 0 ? std::max(repeats.sd, of_model) : of_model;
 }
 
 // The share of the cube whose nearest set ties: trials crowd where they are good, so their own
@@ -159,14 +173,15 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
   if (!finding.absent.empty()) return finding;
 
   auto sets = RankedSets(measured, info, finding.reference);
-  finding.noise_sd = PooledScatter(measured);
+  const Scatter repeats = PooledScatter(measured);
+  finding.noise_sd = repeats.sd;
   const Eigen::VectorXd start = sets.front().point;
   std::optional<ObjectiveModel> model;
   if (with_model && sets.size() >= ObjectiveModel::kFewestPoints) {
     std::vector<ModelPoint> points;
     for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
     model = ObjectiveModel::Fit(points, start, info, finding.reference);
-    if (std::isnan(finding.noise_sd)) finding.noise_sd = model->noise_sd();
+    finding.noise_sd = ScatterWith(repeats, model->noise_sd());
   }
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
   if (model) {

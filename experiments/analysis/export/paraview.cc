@@ -19,6 +19,7 @@
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_case.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -70,7 +71,7 @@ std::vector<engine::Wall> WallsOf(const rigs::Case& rig_case, double top) {
   const rigs::RigEntry& entry = rigs::EntryOf(rig_case);
   std::vector<engine::Wall> walls =
       entry.walls(rig_case, rigs::FilledHeight(rig_case, entry.vessel(rig_case)));
-  std::erase_if(walls, [](const engine::Wall& wall) { return wall.name.ends_with("gate"); });
+  std::erase_if(walls, rigs::IsGate);
   if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) return walls;
   for (engine::Wall& wall : walls) {
     if (auto* tube = std::get_if<engine::OpenCylinder>(&wall.shape)) tube->base.z = top;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/text/number_text.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/spreading/layer.h"
 #include "experiments/rigs/spreading/spreading_walls.h"

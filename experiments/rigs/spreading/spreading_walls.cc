@@ -101,10 +101,6 @@ int NumSpreaderWalls(const Case& c) {
   return o.spreader == Spreader::kComb ? 1 + o.teeth.value_or(SpreadingOptions::kTeeth) : 1;
 }
 
-bool IsGate(const engine::Wall& wall) {
-  return wall.name == "gate" || wall.name == "rear gate" || wall.name == "weir";
-}
-
 std::vector<engine::Wall> SpreadingWalls(const Case& c, double height) {
   const SpreadingOptions& o = c.rig.spreading;
   const double gap = SpreadingGap(c);

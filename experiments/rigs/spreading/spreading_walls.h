@@ -25,9 +25,6 @@ int NumSpreaderWalls(const Case& rig_case);
 // That the heap is filled into, with the bed of powder beside it.
 Vessel SpreadingVessel(const Case& rig_case);
 
-// What holds the heap, and a bed of powder, while they settle.
-bool IsGate(const engine::Wall& wall);
-
 // Around powder that is filled `height` [m] high.
 std::vector<engine::Wall> SpreadingWalls(const Case& rig_case, double height);
 

@@ -36,9 +36,10 @@ ordered_json DrumJson(const imaging::MeasuredDrum& drum, std::size_t num_photos)
                     {"radius_px", circle.radius},
                     {"inner_radius_px", drum.map.inner_radius},
                     {"pixel_size_m", drum.pixel_size},
-                    {"turning", base::NameOf(drum.turning)},
+                    {"turning", nullptr},
                     {"angle_deg", base::ToJson(drum.angle.value / kDrumDegree)},
                     {"fill", base::ToJson(drum.surface.fill.value)}};
+  if (drum.turning) json["turning"] = base::NameOf(*drum.turning);
   if (!drum.angle.defined()) json["not_defined"] = drum.angle.not_defined;
   if (num_photos < 2) return json;
   json["angle_standard_error_deg"] = base::ToJson(drum.angle.standard_error / kDrumDegree);
@@ -74,12 +75,11 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
         << "\n  circle of " << base::ShortNumber(2 * circle.radius) << " px around ("
         << base::ShortNumber(circle.center_x) << ", " << base::ShortNumber(circle.center_y) << "), "
         << base::ShortNumber(drum.pixel_size * 1e6) << " µm a pixel; "
-        << base::ShortNumber(2 * drum.map.inner_radius)
-        << " px of it count, the ring left out\n  turning " << base::NameOf(drum.turning)
-        << ", powder higher on the "
-        << (drum.turning == imaging::Turning::kClockwise ? "left" : "right") << '\n';
+        << base::ShortNumber(2 * drum.map.inner_radius) << " px of it count, the ring left out\n";
   if (drum.angle.defined()) {
-    print << "  dynamic angle " << base::ShortNumber(drum.angle.value / kDrumDegree) << "°";
+    print << "  turning " << base::NameOf(*drum.turning) << ", powder higher on the "
+          << (drum.turning == imaging::Turning::kClockwise ? "left" : "right")
+          << "\n  dynamic angle " << base::ShortNumber(drum.angle.value / kDrumDegree) << "°";
     if (num_photos > 1) {
       print << " ± " << base::ShortNumber(drum.angle.standard_error / kDrumDegree, 2) << "°";
     }

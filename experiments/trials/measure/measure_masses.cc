@@ -42,7 +42,12 @@ std::optional<NamedMass> MassInName(const std::string& name) {
   static const std::regex kMass("(^|[^0-9.,])([0-9]+(?:\\.[0-9]+)?) ?(kg|g|mg|ug)($|[^A-Za-z])");
   std::smatch match;
   if (!std::regex_search(name, match, kMass)) return std::nullopt;
-  std::string rest = match.prefix().str() + match[1].str() + match[4].str() + match.suffix().str();
+  static const std::regex kExponent("[0-9][eE][-+]?$");
+  const std::string before = match.prefix().str() + match[1].str();
+  if (std::regex_search(before, kExponent)) {
+    throw base::ConfigError(name + ": names a mass with a power of ten; write 1.5g or 620mg");
+  }
+  std::string rest = before + match[4].str() + match.suffix().str();
   while (!rest.empty() && std::string_view(" _-,.").find(rest.front()) != std::string_view::npos) {
     rest.erase(0, 1);
   }

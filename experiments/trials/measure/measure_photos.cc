@@ -26,20 +26,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Photographs named one by one: run and view from their names, or all of them views of one run.
+// Photographs named one by one: run and view from their names. A name that fits no other would make
+// all of them views of one heap.
 void GroupPhotos(const std::vector<fs::path>& files, imaging::ExperimentOptions& options) {
   const imaging::PhotoSet set = imaging::SortPhotos(files, options.pattern);
   options.pattern = set.pattern;
-  std::size_t matched = 0;
+  std::vector<fs::path> strays = files;
   for (const imaging::PhotoFiles& run : set.runs) {
     imaging::PhotoRun photos{.name = run.run, .photos = {}};
-    for (const imaging::PhotoFile& view : run.views) photos.photos.push_back(view.path);
-    matched += photos.photos.size();
+    for (const imaging::PhotoFile& view : run.views) {
+      photos.photos.push_back(view.path);
+      std::erase(strays, view.path);
+    }
     options.runs.push_back(std::move(photos));
   }
-  if (matched == files.size()) return;
-  options.runs = {{.name = "1", .photos = files}};
-  options.pattern = "*";
+  if (strays.empty()) return;
+  throw base::ConfigError(
+      strays.front().string() + ": does not fit the pattern \"" + set.pattern +
+      "\"; leave it out, or, if all are views of one heap, say --pattern \"*\"");
 }
 
 std::vector<fs::path> InputsOf(const MeasureRequest& request) {

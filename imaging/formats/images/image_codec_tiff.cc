@@ -107,14 +107,19 @@ CountedSamples SamplesOf(TIFF* tiff, const TiffLayout& layout) {
   return samples;
 }
 
-// From a pixel as it is stored to one as RawImage has it.
-void TakePixel(const CountedSamples& samples, const std::uint16_t* from, std::uint16_t* to) {
+// From a pixel as it is stored to one as RawImage has it. Levels count from `white` down where 0 is
+// white; before white is known, as they are stored, since the largest tells how many bits they
+// have.
+void TakePixel(const CountedSamples& samples, double white, const std::uint16_t* from,
+               std::uint16_t* to) {
   constexpr std::uint32_t kFull = 65535;
+  const auto full = static_cast<std::uint32_t>(white);
   const std::uint32_t alpha = samples.alpha ? from[*samples.alpha] : kFull;
   for (std::size_t c = 0; c < samples.num_colors; ++c) {
     std::uint32_t level = from[c];
     if (samples.is_multiplied && alpha > 0) level = std::min(kFull, level * kFull / alpha);
-    to[c] = static_cast<std::uint16_t>(samples.is_inverted ? kFull - level : level);
+    if (samples.is_inverted && full > 0) level = full - std::min(full, level);
+    to[c] = static_cast<std::uint16_t>(level);
   }
   if (samples.alpha) to[samples.num_colors] = static_cast<std::uint16_t>(alpha);
 }
@@ -130,7 +135,7 @@ RawImage ReadDeep(TIFF* tiff, const TiffLayout& layout, const std::string& name,
   for (std::uint32_t y = 0; y < layout.height; ++y) {
     if (TIFFReadScanline(tiff, stored.data(), y) != 1) ThrowDamaged(name, "row cannot be decoded");
     for (std::size_t x = 0; x < layout.width; ++x) {
-      TakePixel(samples, &stored[x * layout.channels], &row[x * num_counted]);
+      TakePixel(samples, white, &stored[x * layout.channels], &row[x * num_counted]);
     }
     image.AddRow(row);
   }
@@ -138,8 +143,10 @@ RawImage ReadDeep(TIFF* tiff, const TiffLayout& layout, const std::string& name,
 }
 
 // Everything else through libtiff's own conversion to RGBA (palettes, tiles, 1-bit, CMYK, YCbCr),
-// whose colours are multiplied by alpha already. Before white, as other formats.
+// whose colours are multiplied by alpha already; it takes a sample of unknown kind for alpha.
+// Before white, as other formats.
 RawImage ReadConverted(TIFF* tiff, const TiffLayout& layout, const std::string& name) {
+  const bool has_alpha = SamplesOf(tiff, layout).alpha.has_value();
   RawImage image = EmptyImage(layout, 3, 8);
   std::vector<std::uint32_t> raster(static_cast<std::size_t>(layout.width) * layout.height);
   if (TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, raster.data(),
@@ -150,7 +157,8 @@ RawImage ReadConverted(TIFF* tiff, const TiffLayout& layout, const std::string& 
     std::uint16_t samples[3];
     int channel = 0;
     for (const std::uint32_t sample : {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel)}) {
-      samples[channel++] = static_cast<std::uint16_t>(sample + 255 - TIFFGetA(pixel));
+      const std::uint32_t behind = has_alpha ? 255 - TIFFGetA(pixel) : 0;
+      samples[channel++] = static_cast<std::uint16_t>(sample + behind);
     }
     image.AddRow(samples);
   }

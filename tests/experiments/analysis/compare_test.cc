@@ -71,6 +71,14 @@ TEST(CompareObjectives, ScatterIsThatOfTheRepeats) {
   EXPECT_DOUBLE_EQ(finding.noise_sd, std::sqrt(2.5 / 2));
 }
 
+// Two heaps alike by chance, all that was simulated again: the other sets show how values scatter.
+TEST(CompareObjectives, OneRepeatAloneIsNotTheScatter) {
+  std::vector<Sample> samples;
+  for (int i = 0; i <= 12; ++i) samples.push_back({i / 12.0, 5.0 + (i % 2 == 0 ? 0.5 : -0.5)});
+  samples.push_back({0.5, 5.51});
+  EXPECT_GT(Find(OneParameter("sad_mm2", samples), "sad").noise_sd, 0.2);
+}
+
 // "Sets tie when they differ by at most the scatter of one simulation: SAD 0 mm²."
 TEST(CompareObjectives, SeedsThatChangeNothingAreSaidToDoSo) {
   const auto text = [](double second) {

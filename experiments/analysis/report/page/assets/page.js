@@ -44,7 +44,7 @@ function build() {
   const known = any(() => doneTrials().length > 0 && D.objectives.some((objective) => !objective.absent));
   const tried = any(() => D.trials.id.length > 0), has_image = any(() => D.campaign.has_image);
   document.getElementById("name").textContent = D.campaign.name;
-  document.getElementById("standing").append(...standing());
+  document.getElementById("standing").append(element("span", {}, ...standing()));
   section("answer", "Answer", "", [...answerSection(), leftOut()]);
   section("predictions", "Predictions", "What the calibrated sets give in other tests or processes, simulated by talus " +
     "predict: the range of a single run, and where its uncertainty comes from.", predictionSection());

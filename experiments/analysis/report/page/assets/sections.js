@@ -9,7 +9,7 @@ function standing() {
   if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
-    c.ended_silently ? [element("code", {}, "talus resume " + c.folder), " goes on. "] : null,
+    c.ended_silently ? [" ", element("code", {}, "talus resume " + c.folder), " goes on. "] : " ",
     parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];
 }
 
@@ -106,12 +106,15 @@ function failuresSection() {
   const t = D.trials, groups = new Map();
   t.id.forEach((id, i) => {
     if (t.state[i] !== "failed") return;
-    if (!groups.has(t.reason[i])) groups.set(t.reason[i], []);
-    groups.get(t.reason[i]).push(id);
+    const kind = t.reason[i].replace(/\d+/g, "#");  // reasons that differ in seeds, times and folders are one
+    if (!groups.has(kind)) groups.set(kind, {first: t.reason[i], differ: false, ids: []});
+    const group = groups.get(kind);
+    group.differ ||= t.reason[i] !== group.first;
+    group.ids.push(id);
   });
   if (!groups.size) return [element("p", {class: "lead"}, "No trial failed.")];
-  const rows = [...groups].sort((a, b) => b[1].length - a[1].length).map(([reason, ids]) =>
-    [reason, ids.length, ids.slice(0, 20).join(", ") + (ids.length > 20 ? ", …" : "")]);
+  const rows = [...groups.values()].sort((a, b) => b.ids.length - a.ids.length).map(({first, differ, ids}) =>
+    [first + (differ ? " (the numbers differ)" : ""), ids.length, ids.slice(0, 20).join(", ") + (ids.length > 20 ? ", …" : "")]);
   return [element("div", {class: "card"}, table("Failures", [{title: "Reason", text: true, wide: true}, {title: "Trials"},
     {title: "Which", text: true, wide: true}], rows))];
 }
