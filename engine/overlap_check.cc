@@ -54,11 +54,6 @@ double OverlapShare(const Particle& a, const Particle& b) {
   return overlap / std::min(a.radius, b.radius);
 }
 
-std::string NameOfWall(const WallSet& walls, int w) {
-  const std::string& name = walls.walls()[static_cast<std::size_t>(w)].name;
-  return name.empty() ? "walls[" + std::to_string(w) + "]" : "the wall \"" + name + "\"";
-}
-
 // Numbers of the spheres, near ones near each other: the order in which pairs are reported.
 std::vector<std::int32_t> OrderOfCells(std::span<const Particle> spheres,
                                        const ParticleStore& store) {
@@ -106,7 +101,7 @@ void CheckWalls(std::span<const Particle> spheres, ParticleStore& store, const W
     kernels.wall_gaps(step, w, 0, static_cast<std::int64_t>(gaps.size()), gaps.data());
     for (std::size_t i = 0; i < spheres.size(); ++i) {
       if (gaps[i] >= -kMaxOverlapAtStart * spheres[i].radius) continue;
-      reports.StandsIn(static_cast<std::int64_t>(i), NameOfWall(walls, w));
+      reports.StandsIn(static_cast<std::int64_t>(i), walls.NameOf(w));
     }
   }
 }

@@ -146,6 +146,11 @@ WallSet::WallSet(std::vector<Wall> walls) : walls_(std::move(walls)), removed_(w
   Refresh();
 }
 
+std::string WallSet::NameOf(int wall) const {
+  const std::string& name = walls_[static_cast<std::size_t>(wall)].name;
+  return name.empty() ? "walls[" + std::to_string(wall) + "]" : "the wall \"" + name + "\"";
+}
+
 void WallSet::Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed,
                       std::vector<Press> presses) {
   walls_ = std::move(walls);

@@ -54,6 +54,7 @@ class WallSet {
 
   int size() const { return static_cast<int>(walls_.size()); }
   const std::vector<Wall>& walls() const { return walls_; }
+  std::string NameOf(int wall) const;  // in a message: the wall "lid", or walls[2] without a name
   const std::vector<WallView>& views() const { return views_; }
   const std::vector<Press>& presses() const { return presses_; }
 

@@ -191,8 +191,8 @@ void ContactList::FindWalls(const RebuildInput& input, const Panel& panel, Scrat
       const double gap = scratch.gaps[i - panel.begin];
       if (!(gap < input.reach)) continue;
       if (!(gap > -kMaxWallShare * p.Radius(i))) {
-        throw base::Error("sphere " + std::to_string(p.ids[i]) + " goes through the wall \"" +
-                          input.walls.walls()[w].name + "\"");
+        throw base::Error("sphere " + std::to_string(p.ids[i]) + " goes through " +
+                          input.walls.NameOf(w));
       }
       const std::int32_t key = num_materials * (num_materials + w) + p.materials[i];
       (gap < 0 ? scratch.touching : scratch.near)

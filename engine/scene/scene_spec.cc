@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/number_text.h"
 #include "engine/bodies/wall_motion.h"
 #include "engine/scene/scene_pairs.h"
 
@@ -116,6 +117,20 @@ double FirstTurn(const SceneSpec& spec) {
   return INFINITY;
 }
 
+// Whether the grains appear within it: in a column as wide as the mouth, and a slab high.
+bool Holds(const DomainSpec& domain, const Pour& pour) {
+  const PourPlan& plan = pour.plan();
+  const Vec3 up = -1 / Norm(plan.gravity) * plan.gravity;
+  const double radius = plan.mouth_diameter / 2;
+  const auto across = [&](double along) {
+    return radius * std::sqrt(std::max(0.0, 1 - along * along));
+  };
+  const Vec3 wide{across(up.x), across(up.y), across(up.z)};
+  const Vec3 top = plan.mouth + pour.slab() * up;
+  return domain.Contains(plan.mouth - wide) && domain.Contains(plan.mouth + wide) &&
+         domain.Contains(top - wide) && domain.Contains(top + wide);
+}
+
 // The grains fall through nothing unseen, and along the gravity that they were planned for.
 void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_step,
                        const Pour& pour) {
@@ -131,6 +146,11 @@ void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_ste
     problems.Require(pour.plan().start + pour.Duration() <= FirstTurn(spec), "start",
                      "pours when gravity_turns has begun, but along the gravity of the start: end "
                      "it before");
+    problems.Require(
+        !spec.domain || Holds(*spec.domain, pour), "mouth",
+        "puts grains in up to " + base::ShortNumber(1e3 * pour.slab()) +
+            " mm above it and across its whole width, and some of that lies outside the "
+            "domain, where grains vanish: widen the domain, or lower the mouth");
   });
   problems.ThrowIfAny();
 }
@@ -274,9 +294,22 @@ void SceneSpec::Validate(base::Problems& problems) const {
     problems.Require(domain->Contains(spheres[i].position),
                      "spheres[" + std::to_string(i) + "].position", "is outside the domain");
   }
-  for (std::size_t i = 0; domain && i < pours.size(); ++i) {
-    problems.Require(domain->Contains(pours[i].mouth), "pours[" + std::to_string(i) + "].mouth",
+  for (std::size_t i = 0; i < pours.size(); ++i) {
+    const std::string pour = "pours[" + std::to_string(i) + "]";
+    problems.Require(!domain || domain->Contains(pours[i].mouth), pour + ".mouth",
                      "is outside the domain");
+    problems.Require(!stop.time || pours[i].start < *stop.time, pour + ".start", pours[i].start,
+                     "must be before stop.time, or nothing is poured");
+  }
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (!walls[i].taps || !(walls[i].taps->height > 0)) continue;
+    const std::string taps = "walls[" + std::to_string(i) + "].taps";
+    problems.Require(Norm(gravity) > 0, taps, "need gravity, by which the wall falls");
+    if (!(Norm(gravity) > 0)) break;
+    const double least = TapDuration({.height = walls[i].taps->height, .gravity = gravity});
+    problems.Require(
+        !(walls[i].taps->interval <= least), taps + ".interval", walls[i].taps->interval,
+        "must be above the time of a lift and a fall, " + base::ShortNumber(least) + " s");
   }
   problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
   problems.Require(!stop.energy_fraction || Norm(gravity) > 0, "stop.energy_fraction",

@@ -6,6 +6,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/text/number_text.h"
+#include "engine/bodies/wall_motion.h"
 #include "engine/scene/filling.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
@@ -64,7 +65,7 @@ void ValidateTaps(const Case& c, const TapRule& taps, const std::string& place,
   constexpr double kHighest = 0.05;  // [m]
   constexpr double kLongest = 1000;  // [s]
   const std::string path = place + ".height";
-  const double lasts = 3 * std::sqrt(2 * taps.height / c.gravity);
+  const double lasts = engine::TapDuration({.height = taps.height, .gravity = {0, 0, -c.gravity}});
   problems.Require(
       taps.interval > lasts, place + ".interval", taps.interval,
       "must be above three times the time of the fall, " + base::ShortNumber(lasts) + " s");

@@ -172,8 +172,9 @@ PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs, const std::string& patte
     PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run.name, .views = {}});
     for (const auto& path : run.photos) files.views.push_back({.view = {}, .path = path});
     if (run.photos.size() == most) continue;
-    set.missing.push_back("run " + run.name + " has " + std::to_string(run.photos.size()) +
-                          " views, others have " + std::to_string(most));
+    set.missing.push_back("run " + run.name + " has " +
+                          base::Counted(static_cast<long long>(run.photos.size()), "view") +
+                          ", others have " + std::to_string(most));
   }
   return set;
 }

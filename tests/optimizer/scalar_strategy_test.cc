@@ -240,7 +240,7 @@ TEST(ScalarStrategy, APenaltyDoesNotEndAnExactSearch) {
     return x[0] > 0.5 ? 1e6 : (x.array() - 0.3).square().sum();
   };
   for (const std::uint64_t seed : {1, 2, 3}) {
-    ScalarStrategy strategy({.num_parameters = 2}, {.seed = seed, .exact = true});
+    ScalarStrategy strategy({.num_parameters = 2}, {.exact = true, .seed = seed});
     double best = 1e6;
     for (int i = 0; i < 40 && !strategy.WhyStop(); ++i) {
       const Eigen::VectorXd x = strategy.Ask(1, {}).at(0).point;

@@ -42,6 +42,18 @@ class Measure(unittest.TestCase):
         # Five runs of a heap whose angle scatters by a degree or so: degrees, not radians.
         self.assertTrue(0.05 < metrics["repose_angle_2_mean_deg"]["standard_error"] < 2, metrics)
 
+    def test_a_photograph_of_another_name_is_refused_and_not_taken_for_a_view(self):
+        folder = self.folder / "strays"
+        folder.mkdir()
+        stray = shutil.copy(PHOTOS / "run03_view00.jpg", folder / "extra.jpg")
+        photos = [shutil.copy(PHOTOS / name, folder) for name in ("run01_view00.jpg", "run02_view00.jpg")]
+        for pattern in ([], ["--pattern", "run{run}_view{view}.jpg"]):
+            done = run(*photos, stray, "--plate-diameter", "10mm", *pattern)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("extra.jpg: does not fit the pattern", done.stderr)
+        done = run(*photos, stray, "--plate-diameter", "10mm", "--pattern", "*")
+        self.assertIn("1 heap (1), 3 photographs", done.stdout, done.stderr)
+
     def test_spheres_are_compared_in_the_frame_of_the_photographs(self):
         # One layer of touching grains: far less powder than in the photographs, so the SAD is close to
         # what is missing.

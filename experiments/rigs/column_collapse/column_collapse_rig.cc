@@ -3,9 +3,13 @@
 //   runout = x of the farthest grains - L/2     all but 1 % of the mass lies nearer
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/text/counted.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/gate.h"
@@ -15,10 +19,19 @@
 namespace talus::rigs {
 namespace {
 
+constexpr const char* kRunningOut = "running out";
 constexpr double kFront = 0.99;  // of the mass lies behind the front
 constexpr int kColumnFloor = 1;  // index of the wall
 
-class ColumnCollapseRig : public RememberingRig<NoMemory> {
+struct GateMemory {
+  std::int64_t num_carried = 0;  // grains that went with the gate
+  double mass_carried = 0;       // [kg]
+
+  static constexpr base::FieldKey kKeys[] = {{"mass_carried", "mass_carried_kg"}};
+  TALUS_FIELDS(num_carried, mass_carried);
+};
+
+class ColumnCollapseRig : public RememberingRig<GateMemory> {
  public:
   static constexpr RigObservable kMeasured[] = {{Observable::kRunout, true},
                                                 {Observable::kHeight, true},
@@ -29,7 +42,7 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
   ColumnCollapseRig(const Case& c, State state, engine::Simulation simulation)
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
     // Until the gate is out of its way the column rests.
-    Phase running = Resting("running out", c.rules.heap, [this] { return GateIsUp(); });
+    Phase running = Resting(kRunningOut, c.rules.heap, [this] { return GateIsUp(); });
     running.filmed = true;
     running.begin = [this] { Open(); };
     running.cap = [this, longest = c.rules.heap.max_time] { return longest + OpeningTime(); };
@@ -70,10 +83,15 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
   }
 
  protected:
+  std::optional<PhaseEnd> Look() override {
+    if (phase_name() == kRunningOut && GateIsUp() && !simulation().IsRemoved(kGate)) DropGate();
+    return std::nullopt;
+  }
+
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double length = rig_case().rig.column_collapse.length;
     const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
-    // Grains that ride on the gate are none of the heap.
+    // Grains that cling to a gate that has not come up are none of the heap.
     const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
     const std::vector<bool> stands = ContactSets(grains, contacts).Reaching(kColumnFloor);
     double top = 0;
@@ -94,9 +112,15 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
   }
 
   std::vector<std::string> Warnings(GrainSpan grains) const override {
+    std::vector<std::string> warnings;
+    if (memory().num_carried > 0) {
+      warnings.push_back(base::Counted(memory().num_carried, "grain") +
+                         " clung to the gate and went up with it");
+    }
     const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
-    if (front > rig_case().rig.column_collapse.length / 2) return {};
-    return {"the column stands: less than 1 % of it ran out from behind the gate"};
+    if (front > rig_case().rig.column_collapse.length / 2) return warnings;
+    warnings.push_back("the column stands: less than 1 % of it ran out from behind the gate");
+    return warnings;
   }
 
  private:
@@ -108,6 +132,18 @@ class ColumnCollapseRig : public RememberingRig<NoMemory> {
 
   // The column only sinks from its first height on.
   bool GateIsUp() const { return simulation().time() - phase_start() > OpeningTime(); }
+
+  // It has left the column, with what clings to it and stands on nothing.
+  void DropGate() {
+    const ContactSets sets(view().particles, view().contacts);
+    const std::vector<bool> at_gate = sets.Reaching(kGate), stands = sets.Reaching(kColumnFloor);
+    std::vector<std::int64_t> carried;
+    for (std::size_t i = 0; i < at_gate.size(); ++i) {
+      if (at_gate[i] && !stands[i]) carried.push_back(view().particles[i].id);
+    }
+    scene().RemoveWall(kGate);
+    memory().num_carried += WeighOut(carried, memory().mass_carried);
+  }
 
   void Open() {
     const auto& velocity = rig_case().rig.column_collapse.gate_velocity;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
@@ -14,6 +15,10 @@
 
 namespace talus::rigs {
 namespace {
+
+constexpr int kLeftShelf = 1;  // indices of the walls
+constexpr int kRightShelf = 2;
+constexpr int kLowerFloor = 3;
 
 class DrawDownRig : public RememberingRig<FlowMemory> {
  public:
@@ -83,17 +88,20 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
 
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const DrawDownOptions& box = rig_case().rig.draw_down;
-    const double passed = MassBelow(grains);
+    const std::vector<bool> hangs = Hanging(grains);
+    // Both halves are one, seen at |x|.
+    std::vector<engine::Particle> above, below;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      engine::Particle p = grains[i];
+      p.position.x = std::abs(p.position.x);
+      const bool has_fallen = p.position.z < box.height && !hangs[i];
+      (has_fallen ? below : above).push_back(p);
+    }
+    const double passed = MassOf(below);
     std::vector<Reading> all{{Observable::kMassFallen, passed},
                              {Observable::kMassLeft, FilledMass() - passed}};
     for (Reading& reading : FlowReadings(memory().flow, passed, "nothing ran through the slot")) {
       all.push_back(std::move(reading));
-    }
-    // Both halves are one, seen at |x|.
-    std::vector<engine::Particle> above, below;
-    for (engine::Particle p : grains) {
-      p.position.x = std::abs(p.position.x);
-      (p.position.z < box.height ? below : above).push_back(p);
     }
     const double foot = MassQuantile(below, 0.98, [](const auto& p) { return p.position.x; });
     all.push_back(
@@ -106,7 +114,18 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
   }
 
  private:
-  // the slot [kg]
+  // Whether each clings to a shelf, from below as well, and no chain of contacts holds it up.
+  std::vector<bool> Hanging(GrainSpan grains) const {
+    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
+    const ContactSets sets(grains, contacts);
+    const std::vector<bool> left = sets.Reaching(kLeftShelf), right = sets.Reaching(kRightShelf);
+    const std::vector<bool> stands = sets.Reaching(kLowerFloor);
+    std::vector<bool> hangs(grains.size());
+    for (std::size_t i = 0; i < grains.size(); ++i) hangs[i] = (left[i] || right[i]) && !stands[i];
+    return hangs;
+  }
+
+  // Beneath the shelves [kg].
   double MassBelow(GrainSpan grains) const {
     const double height = rig_case().rig.draw_down.height;
     double mass = 0;

@@ -120,12 +120,11 @@ class DrumRig : public RememberingRig<DrumMemory> {
     const auto along = [](const auto& p) { return p.position.x; };
     const double low = MassQuantile(grains, 0.02, along);
     const double high = MassQuantile(grains, 0.98, along);
-    const std::vector<SurfacePoint> surface = SurfaceOf(
-        grains,
-        {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()});
-    if (HangsFromShell(surface)) {
+    const SurfaceStrips strips{
+        .from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()};
+    if (HangsFromShell(SurfaceOf(grains, strips))) {
       ++memory().num_carried;
-    } else if (const auto slope = SlopeOf(surface)) {
+    } else if (const auto slope = SlopeOf(SurfaceOf(WithoutClinging(grains), strips))) {
       memory().angles.push_back(SlopeAngle(-*slope));
     }
     return std::nullopt;
@@ -152,12 +151,23 @@ class DrumRig : public RememberingRig<DrumMemory> {
   // Whether most of what is highest lies at the upper half of the shell, within a grain. A powder
   // that flows is there in none of the middle half's strips, one that clings in nearly all.
   bool HangsFromShell(const std::vector<SurfacePoint>& surface) const {
-    const double radius = rig_case().rig.drum.diameter / 2;
-    const auto at_shell = std::ranges::count_if(surface, [&](const SurfacePoint& p) {
-      const double shell = radius + std::sqrt(std::max(0.0, radius * radius - p.x * p.x));
-      return p.top > shell - MeanDiameter();
-    });
+    const auto at_shell = std::ranges::count_if(
+        surface, [&](const SurfacePoint& p) { return p.top > Shell(p.x) - MeanDiameter(); });
     return std::cmp_greater(2 * at_shell, surface.size());
+  }
+
+  // A few grains that the shell carries over the surface are none of it.
+  std::vector<engine::Particle> WithoutClinging(std::vector<engine::Particle> grains) const {
+    std::erase_if(grains, [&](const engine::Particle& p) {
+      return p.position.z + p.radius > Shell(p.position.x) - MeanDiameter();
+    });
+    return grains;
+  }
+
+  // Height of the shell's upper half over a place [m].
+  double Shell(double x) const {
+    const double radius = rig_case().rig.drum.diameter / 2;
+    return radius + std::sqrt(std::max(0.0, radius * radius - x * x));
   }
 
   void Turn() {

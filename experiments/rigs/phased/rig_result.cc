@@ -1,11 +1,13 @@
 // result.json of a bulk test: how each phase ended, what was measured, what it cost, and the
 // conditions that calibrated values hold for.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 #include "base/version.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/case_warnings.h"
@@ -52,6 +54,14 @@ std::vector<std::string> CapWarnings(const RigState& state, const std::vector<Ph
                            : phases[i].cap_warning);
   }
   return warnings;
+}
+
+std::vector<std::string> LateTimes(const std::vector<double>& times, double end) {
+  const auto late = std::ranges::count_if(times, [&](double time) { return time > end; });
+  if (late == 0) return {};
+  return {"outputs.times: " + std::to_string(late) + " of " + std::to_string(times.size()) +
+          " lie after the test's end at " + base::ShortNumber(end) +
+          " s: no state is written there"};
 }
 
 ordered_json CommonConditions(const Case& c, const engine::Simulation& simulation) {
@@ -147,6 +157,9 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
   std::vector<std::string> warnings = CaseWarnings(case_);
   for (std::string& text : CapWarnings(state_, phases_)) warnings.push_back(std::move(text));
   for (std::string& text : Warnings(grains)) warnings.push_back(std::move(text));
+  for (std::string& text : LateTimes(case_.outputs.times, simulation_.time())) {
+    warnings.push_back(std::move(text));
+  }
   result["warnings"] = warnings;
   return base::WithChecksum(base::JsonText(result, 2) + "\n");
 }

@@ -3,7 +3,7 @@
 //
 // With M the torque on the lid and R its radius, τ = 3 M/(2π R³), as if τ were the same at every
 // radius. Both lid and floor have vanes, so that the powder shears in itself; the cell's side is
-// smooth unless its material is given: real cells are so wide that it counts for little.
+// smooth unless its friction is given: real cells are so wide that it counts for little.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -269,10 +269,11 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
             wall, {{.time = start, .velocity = {0, 0, -way / time}}, {.time = start + time}});
       });
     }
-    if (rig_case().materials.walls) return;
-    engine::Material smooth = MaterialsOf(rig_case())[kWalls];
-    smooth.sliding_friction = smooth.rolling_friction = 0;
-    scene().SetMaterial(kWalls, smooth);
+    const WallMaterial stated = rig_case().materials.walls.value_or(WallMaterial{});
+    engine::Material side = MaterialsOf(rig_case())[kWalls];
+    side.sliding_friction = stated.sliding_friction.value_or(0);
+    side.rolling_friction = stated.rolling_friction.value_or(0);
+    scene().SetMaterial(kWalls, side);
   }
 
   // presses, and turns on

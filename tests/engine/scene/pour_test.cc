@@ -178,6 +178,26 @@ TEST(PouredScene, BadPoursAreRefused) {
   EXPECT_NE(error_of(kCup, "\"0.6 g\"", "0").find("pours[0].mass"), std::string::npos);
   EXPECT_NE(error_of(kCup, "\"stop\"", "\"time_step\": 1e-4, \"stop\"").find("poured sphere"),
             std::string::npos);
+  // Grains appear up to four largest radii above the mouth, 32.4 mm, and across it: to ±3 mm.
+  const auto with_domain = [&](const std::string& high) {
+    return error_of(kCup, "\"stop\"",
+                    R"("domain": {"low": [-0.01, -0.01, -0.01], "high": )" + high + R"(}, "stop")");
+  };
+  EXPECT_EQ(with_domain("[0.01, 0.01, 0.035]"), "");
+  EXPECT_NE(with_domain("[0.01, 0.01, 0.031]").find("pours[0].mouth: puts"), std::string::npos);
+  EXPECT_NE(with_domain("[0.01, 0.002, 0.035]").find("pours[0].mouth: puts"), std::string::npos);
+}
+
+TEST(PouredScene, TapsNeedGravity) {
+  std::string text = kCup;
+  text.replace(text.find("\"energy_fraction\": 1e-4, "), 25, "");
+  const std::string from = "\"floor\", ";
+  text.replace(text.find(from), from.size(),
+               from + R"("taps": {"count": 2, "height": 3e-3, "interval": 0.12}, )");
+  EXPECT_EQ(ErrorIn([&] { Load(text, "taps"); }), "");
+  text.replace(text.find("\"materials\""), 0, "\"gravity\": [0, 0, 0], ");
+  EXPECT_NE(ErrorIn([&] { Load(text, "taps"); }).find("walls[0].taps: need gravity"),
+            std::string::npos);
 }
 
 // 4 × 4 × 3 spheres of radius 1 in a square lattice: half the height of the column is its middle.

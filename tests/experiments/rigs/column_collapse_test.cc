@@ -41,12 +41,13 @@ TEST(ColumnCollapse, ASlowGateIsWaitedFor) {
   EXPECT_NEAR(Value(c, *rig, "runout_m"), at_once, 0.3 * at_once);
   const PhaseRecord& running = rig->RecordOf("running out");
   EXPECT_GT((running.end_time - running.start_time) * 0.05, Value(c, *rig, "height_m"));
-  // Grains that stick to the gate ride on it for ever, and hold nothing up.
+  // Grains that stick to the gate go with it: they rode on it for ever.
   c.models.adhesion = engine::Adhesion::kJkr;
   c.powder.material.surface_energy = 0.02;
   const auto sticky = Ran(c);
   EXPECT_EQ(sticky->RecordOf("running out").reason, PhaseEnd::kAtRest);
   EXPECT_LT(Value(c, *sticky, "height_m"), 0.02);
+  for (const engine::Particle& p : sticky->simulation().Particles()) EXPECT_LT(p.position.z, 0.02);
 }
 
 }  // namespace column_collapse_test

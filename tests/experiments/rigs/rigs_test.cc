@@ -106,30 +106,6 @@ TEST(TiltingBox, WhatDoesNotSlideHasNoAngle) {
   EXPECT_THAT(std::string(result["undefined"]["angle_deg"]), HasSubstr("nothing slid up to 3 deg"));
 }
 
-// [kg/s] of a slot of width D and length W in a box whose bed has this density [beverloo1961,
-// brown1970]: C ρ_b √g W (D - k d)^1.5 with C = 1.03, k = 1.4.
-double Beverloo(double density, double slot, double width) {
-  return 1.03 * density * std::sqrt(9.81) * width * std::pow(slot - 1.4e-3, 1.5);
-}
-
-// The constant of the law goes with the powder, 0.55 to 0.65 of a round hole's being common; with
-// smooth side walls a band of 0.7 to 1.3. Its ratio for two slots needs no constant.
-TEST(DrawDown, TheDischargeFollowsBeverloo) {
-  std::vector<double> rates, laws;
-  for (const double slot : {0.006, 0.009}) {
-    Case c = CaseOf(RigKind::kDrawDown, 0.5, 0.05, 2e-3);
-    c.rig.draw_down = {.length = 0.024, .width = 0.005, .slot = slot, .height = 0.02};
-    c.materials.walls = WallMaterial{.sliding_friction = 0};
-    const auto rig = Ran(c);
-    rates.push_back(Value(c, *rig, "discharge_rate_kg_per_s"));
-    laws.push_back(Beverloo(0.55 * kDensity, slot, 0.005));
-    EXPECT_GT(rates.back(), 0.7 * laws.back());
-    EXPECT_LT(rates.back(), 1.3 * laws.back());
-    EXPECT_NEAR(Value(c, *rig, "mass_fallen_kg") + Value(c, *rig, "mass_left_kg"), 2e-3, 5e-6);
-  }
-  EXPECT_NEAR(rates[1] / rates[0], laws[1] / laws[0], 0.25 * laws[1] / laws[0]);
-}
-
 TEST(Drum, TheDynamicAngleGrowsWithFriction) {
   std::vector<double> angles;
   for (const double friction : {0.1, 0.6}) {
@@ -155,6 +131,17 @@ TEST(Drum, APowderThatClingsToTheShellHasNoAngle) {
   const auto rig = Ran(c);
   const auto result = nlohmann::json::parse(rig->ResultText({}, {}));
   EXPECT_THAT(std::string(result["undefined"]["angle_deg"]), HasSubstr("hangs from the shell"));
+}
+
+// A few grains that the shell carries through the measured strips made looks of -38 degrees.
+TEST(Drum, AFewGrainsThatClingDoNotTiltTheSurface) {
+  Case c = CaseOf(RigKind::kDrum, 0.5, 0.1, 0.7e-3);
+  c.rig.drum = {.diameter = 0.024, .width = 0.006, .speed = 4, .start_turns = 0.3, .turns = 0.25};
+  c.models.adhesion = engine::Adhesion::kJkr;
+  c.powder.material.surface_energy = 0.01;
+  const auto rig = Ran(c);
+  EXPECT_GT(Value(c, *rig, "angle_deg"), 35);
+  EXPECT_LT(Value(c, *rig, "angle_sd_deg"), 15);
 }
 
 // A trial keeps both under their names.

@@ -93,6 +93,16 @@ TEST(ShearCell, APowderWithoutCohesionHasALineThroughTheOrigin) {
   EXPECT_NEAR(overlap / contacts / SqueezeShare(Cell(0.5), 4e3), 1, 0.5);
 }
 
+// A side of which the modulus alone is stated was as rough as the powder: 1.8 times the stress.
+TEST(ShearCell, TheSideIsSmoothUnlessItsFrictionIsStated) {
+  Case cell = Cell(0.5);
+  cell.rig.shear_cell.stresses = {1e3};
+  cell.materials.walls = WallMaterial{.youngs_modulus = 5e6};
+  EXPECT_NEAR(Value(ResultOf(*Ran(cell)), "shear_stress_1_pa") /
+                  Value(ResultOf(PlainCell()), "shear_stress_1_pa"),
+              1, 0.2);
+}
+
 TEST(ShearCell, TheAngleGrowsWithFriction) {
   Case smooth = Cell(0.1);
   smooth.rig.shear_cell.stresses = {1e3, 4e3};
