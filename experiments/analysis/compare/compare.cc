@@ -75,11 +75,19 @@ Scatter PooledScatter(const std::vector<Measurement>& measured) {
 }
 
 // Two heaps that happen to be alike, all that a campaign may have simulated again, would leave next
-// to no scatter: of so few the model has a say.
+// to no scatter: of so few a model's has a say, where there is one.
 double ScatterWith(const Scatter& repeats, double of_model) {
   constexpr double kFew = 4;
-  if (repeats.freedom >= kFew) return repeats.sd;
+  if (repeats.freedom >= kFew || std::isnan(of_model)) return repeats.sd;
   return repeats.freedom > 0 ? std::max(repeats.sd, of_model) : of_model;
+}
+
+// What the campaign's answer says of its own objective; kUndefined of others.
+double ScatterOfAnswer(const Evidence& evidence, const Criterion& info) {
+  if (!evidence.answer || info.key != evidence.objective) return kUndefined;
+  const auto& experiments = evidence.answer->experiments;
+  if (evidence.experiment >= experiments.size()) return kUndefined;
+  return experiments[evidence.experiment].noise_sd.value_or(kUndefined);
 }
 
 // The share of the cube whose nearest set ties: trials crowd where they are good, so their own
@@ -174,14 +182,15 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
 
   auto sets = RankedSets(measured, info, finding.reference);
   const Scatter repeats = PooledScatter(measured);
-  finding.noise_sd = repeats.sd;
+  const double of_answer = ScatterOfAnswer(evidence, info);
+  finding.noise_sd = ScatterWith(repeats, of_answer);
   const Eigen::VectorXd start = sets.front().point;
   std::optional<ObjectiveModel> model;
   if (with_model && sets.size() >= ObjectiveModel::kFewestPoints) {
     std::vector<ModelPoint> points;
     for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
     model = ObjectiveModel::Fit(points, start, info, finding.reference);
-    finding.noise_sd = ScatterWith(repeats, model->noise_sd());
+    if (std::isnan(of_answer)) finding.noise_sd = ScatterWith(repeats, model->noise_sd());
   }
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
   if (model) {
