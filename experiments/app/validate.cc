@@ -121,7 +121,8 @@ void PrintForeignCost(const campaign::CampaignSpec& spec) {
   std::cout << "  cost              ";
   if (spec.budget.simulations > 0) {
     std::cout << base::Counted(spec.budget.simulations, "simulation") << " and at most "
-              << spec.confirm.MostTrials() << " to confirm";
+              << spec.confirm.MostTrials() * static_cast<int>(campaign::ExperimentsOf(spec).size())
+              << " to confirm";
   } else {
     std::cout << trials::DurationText(spec.budget.core_time.value_or(0)) << " of core time";
   }
@@ -229,7 +230,7 @@ bool IsProblem(const nlohmann::json& root) {
 }
 
 // What a file is: by a key that only it has. The order matters: a campaign has a powder, too,
-// and what is to be searched without data is a plan.
+// and what is to be searched without data is a plan, by whichever engine.
 struct ValidatedKind {
   const char* key;
   void (*validate)(const base::JsonFile& file, bool with_experiment);
@@ -237,8 +238,8 @@ struct ValidatedKind {
 constexpr ValidatedKind kKinds[] = {
     {"candidates", &ValidateDesign},   {"budget", &ValidateCampaign},
     {"experiment", &ValidateCampaign}, {"experiments", &ValidateCampaign},
-    {"engine", &ValidateCommandCase},  {"target", &ValidateProblem},
-    {"parameters", &ValidateDesign},   {"powder", &ValidateHeap},
+    {"target", &ValidateProblem},      {"parameters", &ValidateDesign},
+    {"engine", &ValidateCommandCase},  {"powder", &ValidateHeap},
     {"materials", &ValidateScene}};
 
 void Validate(const std::string& path, bool with_experiment) {

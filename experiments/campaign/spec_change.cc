@@ -48,10 +48,15 @@ void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& wr
   const std::vector<ExperimentSpec>& all = *going.experiments;
   const std::size_t num_begun =
       begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
-  std::vector<ExperimentSpec> kept = ExperimentsOf(read);
-  // A file that has been kept in step has them all.
-  if (num_begun >= all.size() || kept.size() != num_begun) return;
-  kept.insert(kept.end(), all.begin() + static_cast<std::ptrdiff_t>(num_begun), all.end());
+  if (num_begun >= all.size()) return;
+  // A file that has been kept in step has them all; those it began with are stored complete.
+  const std::vector<ExperimentSpec> complete = ExperimentsOf(read);
+  const bool is_in_step = read.experiments && complete.size() == all.size();
+  if (!is_in_step && complete.size() != num_begun) return;
+  const auto begun = static_cast<std::ptrdiff_t>(num_begun);
+  std::vector<ExperimentSpec> kept(complete.begin(), complete.begin() + begun);
+  const std::vector<ExperimentSpec>& added = is_in_step ? *read.experiments : all;
+  kept.insert(kept.end(), added.begin() + begun, added.end());
   read.experiments = std::move(kept);
   read.experiment.reset();
 }
@@ -100,7 +105,10 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   change.spec = ReadSpecWithPosteriors(file, &begun);
   const nlohmann::json begun_with = base::ParseJson(record.spec_text, record.spec_path).root;
   // `calibrate --hold-out` is of the campaign and not in the file.
-  if (!begun_with.contains("hold_out")) change.spec.hold_out = begun.hold_out;
+  const auto held_out = [](const nlohmann::json& spec) {
+    return spec.value("hold_out", nlohmann::json());
+  };
+  if (held_out(begun_with) == held_out(file.root)) change.spec.hold_out = begun.hold_out;
   KeepAddedParameters(begun, change.spec);
   KeepDrumFills(file.root, begun, change.spec);
   KeepWhatWasGiven(begun_with, file.root, begun, change.spec);

@@ -7,6 +7,7 @@
 #include "experiments/analysis/next/planned_view.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/campaign/earlier_posterior.h"
+#include "experiments/campaign/spec/ignored_keys.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/load_case.h"
 
@@ -56,6 +57,7 @@ DesignSpec LoadDesignSpec(const std::filesystem::path& path) {
   campaign::CampaignSpec& spec = design.campaign;
   if (spec.name.empty()) spec.name = base::OneLine(file.path.stem().string());
   if (!spec.parameters) spec.parameters = campaign::UsualRanges(spec.models.adhesion);
+  campaign::RefuseIgnoredKeys(file, spec, problems);
   problems.ThrowIfAny();
   engine::ReadSizeFile(spec.powder.sizes);
   ValidateDesign(design, problems);
@@ -63,6 +65,8 @@ DesignSpec LoadDesignSpec(const std::filesystem::path& path) {
   campaign::TakePosteriors(spec, nullptr, problems);
   problems.ThrowIfAny();
   spec.coarse_graining.scale_factor = spec.coarse_graining.Levels().back();
+  campaign::CompleteEngine(spec, problems);
+  problems.ThrowIfAny();
   if (!design.candidates.empty()) return design;
   design.candidates = UsualTests(ViewOf(design, {}));
   design.candidates.insert(design.candidates.begin(), TestCandidate{.name = kOwnTest});

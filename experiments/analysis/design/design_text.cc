@@ -150,6 +150,10 @@ std::string DesignCostText(const DesignSpec& design) {
   const std::vector<campaign::ExperimentSpec>& experiments = *all.experiments;
   std::string text = "  candidates        " + std::to_string(design.candidates.size()) + "\n";
   if (experiments.empty()) return text;
+  if (design.campaign.engine.kind == campaign::EngineKind::kCommand) {
+    return text + "  time              " + base::Counted(kDesignSimulations, "simulation") +
+           " of each; how long one takes is not known before one has run\n";
+  }
   double seconds = 0;
   for (const campaign::TrialEstimate& trial : campaign::EstimateTrials(all).trials) {
     seconds += kDesignSimulations * trial.core_seconds;

@@ -78,7 +78,10 @@ class Study {
   // Processor time of the first simulations of all moves [s].
   double FirstCoreTime() const {
     std::vector<MovedSet> sets{{.replicates = BaseReplicates(kFirstReplicates)}};
-    for (const Move& move : moves_) sets.push_back({.move = &move, .replicates = kFirstReplicates});
+    for (const Move& move : moves_) {
+      if (!Unknown(move).why_not.empty()) continue;  // it is not simulated
+      sets.push_back({.move = &move, .replicates = kFirstReplicates});
+    }
     return CoreTimeOf(setting_, sets);
   }
 

@@ -35,18 +35,6 @@ constexpr double kLongest = 366 * 86400.0;  // [s]
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
 
-// Another engine's templates are checked once, when the user's spec is read; what was read then is
-// recognised by its hash.
-void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
-  if (spec.engine.kind != EngineKind::kCommand || !spec.engine.command.templates_hash.empty()) {
-    return;
-  }
-  CheckTemplates(spec, problems);
-  if (!std::filesystem::is_directory(*spec.engine.command.templates)) return;  // which is said
-  spec.engine.command.templates_hash =
-      trials::TemplateFolder(*spec.engine.command.templates).Hash();
-}
-
 }  // namespace
 
 void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
@@ -231,6 +219,16 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
 
 CampaignSpec ParseSpecText(const std::string& text) {
   return journal::ParseRecord<CampaignSpec>(text, "the journal's spec");
+}
+
+void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
+  if (spec.engine.kind != EngineKind::kCommand || !spec.engine.command.templates_hash.empty()) {
+    return;
+  }
+  CheckTemplates(spec, problems);
+  if (!std::filesystem::is_directory(*spec.engine.command.templates)) return;  // which is said
+  spec.engine.command.templates_hash =
+      trials::TemplateFolder(*spec.engine.command.templates).Hash();
 }
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {

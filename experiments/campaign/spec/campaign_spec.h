@@ -135,6 +135,9 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems);
 
 // Whether another engine's templates use every parameter that is searched, and only what there is.
 void CheckTemplates(const CampaignSpec& spec, base::Problems& problems);
+// Another engine's templates are checked once, when the user's spec is read; what was read then is
+// recognised by its hash.
+void CompleteEngine(CampaignSpec& spec, base::Problems& problems);
 
 // The spec with all its defaults and absolute paths, as JSON that reads back to the same.
 std::string SpecText(const CampaignSpec& spec);

@@ -91,6 +91,19 @@ void CheckBodies(const CampaignSpec& spec, std::size_t num_experiments, base::Pr
   }
 }
 
+// The answer's sets may be simulated again at a scale factor that no search has.
+void CheckConfirmation(const CampaignSpec& spec, int experiment, base::Problems& problems) {
+  const double factor = spec.ConfirmScaleFactor();
+  const std::vector<double> levels = spec.coarse_graining.Levels();
+  if (spec.confirm.candidates == 0 || std::ranges::count(levels, factor) > 0) return;
+  base::Problems of_case;
+  rigs::ValidateCase(TypicalCase(spec, experiment, factor), of_case);
+  if (of_case.empty()) return;
+  const base::Problem& first = of_case.list().front();
+  problems.Require(false, "confirm.scale_factor", factor,
+                   "leaves a case that cannot be simulated: " + first.path + " " + first.message);
+}
+
 }  // namespace
 
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
@@ -98,6 +111,7 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   CheckBodies(spec, experiments.size(), problems);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     if (!CheckCases(spec, e, problems)) continue;
+    CheckConfirmation(spec, static_cast<int>(e), problems);
     for (const double factor : spec.coarse_graining.Levels()) {
       const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), factor);
       if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;

@@ -100,6 +100,17 @@ TEST_F(AddExperimentTest, ASpecThatIsChangedLaterLeavesItThere) {
   EXPECT_EQ(ExperimentsOf(with_more).size(), 2u);
   EXPECT_EQ(with_more.budget.simulations, 40);
   EXPECT_FALSE(with_more.budget.core_time);
+  // Kept in step, the file lists both.
+  nlohmann::json both = base::ParseJson(text, file.string()).root;
+  both["experiment"]["name"] = ExperimentsOf(added)[0].name;
+  both["experiments"] = {both["experiment"],
+                         nlohmann::json::parse(TwoExperiments::FastLift("23 mg"))};
+  both.erase("experiment");
+  both["workers"] = 3;
+  std::ofstream(file) << both.dump(1);
+  const CampaignSpec in_step = OpenCampaign(folder, {}, console).spec;
+  EXPECT_EQ(ExperimentsOf(in_step).size(), 2u);
+  EXPECT_EQ(in_step.workers, 3);
 }
 
 // A trial that still runs when the budget is used counts by an estimate; where it takes less, the
