@@ -45,9 +45,10 @@ def main():
             spec.write_text(json.dumps(spec_of(seed, options.core_time), indent=1))
             twin.run(options.talus, "calibrate", spec, "--out", campaign, "--quiet")
         result = json.loads((campaign / "result.json").read_text())
-        known = {p["name"]: f"{p['credible_90_low']:.3f} to {p['credible_90_high']:.3f}" for p in result["parameters"]}
+        restitution = next(p for p in result["parameters"] if p["name"] == "restitution")
         level = twin.credible_level(options.talus, campaign, TRUTH)
-        print(f"seed {seed}: level {level:.3f}, restitution {known['restitution']}, "
+        print(f"seed {seed}: level {level:.3f}, restitution {restitution['credible_90_low']:.3f} to "
+              f"{restitution['credible_90_high']:.3f}, "
               f"{60 * result['cost']['core_hours']:.0f} core min", flush=True)
 
 

@@ -121,8 +121,7 @@ void PrintForeignCost(const campaign::CampaignSpec& spec) {
   std::cout << "  cost              ";
   if (spec.budget.simulations > 0) {
     std::cout << base::Counted(spec.budget.simulations, "simulation") << " and at most "
-              << spec.confirm.MostTrials() * static_cast<int>(campaign::ExperimentsOf(spec).size())
-              << " to confirm";
+              << campaign::MostConfirming(spec) << " to confirm";
   } else {
     std::cout << trials::DurationText(spec.budget.core_time.value_or(0)) << " of core time";
   }

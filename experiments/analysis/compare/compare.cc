@@ -182,16 +182,16 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
 
   auto sets = RankedSets(measured, info, finding.reference);
   const Scatter repeats = PooledScatter(measured);
-  const double of_answer = ScatterOfAnswer(evidence, info);
-  finding.noise_sd = ScatterWith(repeats, of_answer);
+  double of_model = ScatterOfAnswer(evidence, info);
   const Eigen::VectorXd start = sets.front().point;
   std::optional<ObjectiveModel> model;
   if (with_model && sets.size() >= ObjectiveModel::kFewestPoints) {
     std::vector<ModelPoint> points;
     for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
     model = ObjectiveModel::Fit(points, start, info, finding.reference);
-    if (std::isnan(of_answer)) finding.noise_sd = ScatterWith(repeats, model->noise_sd());
+    if (std::isnan(of_model)) of_model = model->noise_sd();
   }
+  finding.noise_sd = ScatterWith(repeats, of_model);
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
   if (model) {
     finding.from_model = FindFromModel(evidence, *model, start, finding.margin());

@@ -192,13 +192,16 @@ TrialEstimates EstimateTrials(const CampaignSpec& spec) {
   return e;
 }
 
+int MostConfirming(const CampaignSpec& spec) {
+  return spec.confirm.MostTrials() * static_cast<int>(ExperimentsOf(spec).size());
+}
+
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   TrialEstimates made = EstimateTrials(spec);
   CampaignEstimate e{.trials = std::move(made.trials), .grain_steps_per_s = made.grain_steps_per_s};
   const double dearest = std::ranges::max(e.trials, {}, &TrialEstimate::core_seconds).core_seconds;
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
-  const int num_confirming =
-      spec.confirm.MostTrials() * static_cast<int>(ExperimentsOf(spec).size());
+  const int num_confirming = MostConfirming(spec);
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
   e.num_workers = MostAtATime(spec, NumCores());
   const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations

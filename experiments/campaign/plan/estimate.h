@@ -50,7 +50,10 @@ struct TrialEstimates {
 };
 TrialEstimates EstimateTrials(const CampaignSpec& spec);
 
-// The same, and what follows for the campaign.
+// Trials that confirm the answer, of all experiments, at most.
+int MostConfirming(const CampaignSpec& spec);
+
+// The trials, and what follows from them for the campaign.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
 // Where the budget buys so few trials at the smallest scale factor that the answer rests on the

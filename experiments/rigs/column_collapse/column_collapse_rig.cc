@@ -135,11 +135,11 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
 
   // It has left the column, with what clings to it and stands on nothing.
   void DropGate() {
-    const ContactSets sets(view().particles, view().contacts);
-    const std::vector<bool> at_gate = sets.Reaching(kGate), stands = sets.Reaching(kColumnFloor);
+    const std::vector<bool> hangs =
+        ContactSets(view().particles, view().contacts).Hanging({kGate}, kColumnFloor);
     std::vector<std::int64_t> carried;
-    for (std::size_t i = 0; i < at_gate.size(); ++i) {
-      if (at_gate[i] && !stands[i]) carried.push_back(view().particles[i].id);
+    for (std::size_t i = 0; i < hangs.size(); ++i) {
+      if (hangs[i]) carried.push_back(view().particles[i].id);
     }
     scene().RemoveWall(kGate);
     memory().num_carried += WeighOut(carried, memory().mass_carried);

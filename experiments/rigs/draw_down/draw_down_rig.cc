@@ -88,7 +88,9 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
 
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const DrawDownOptions& box = rig_case().rig.draw_down;
-    const std::vector<bool> hangs = Hanging(grains);
+    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
+    const std::vector<bool> hangs =
+        ContactSets(grains, contacts).Hanging({kLeftShelf, kRightShelf}, kLowerFloor);
     // Both halves are one, seen at |x|.
     std::vector<engine::Particle> above, below;
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -114,17 +116,6 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
   }
 
  private:
-  // Whether each clings to a shelf, from below as well, and no chain of contacts holds it up.
-  std::vector<bool> Hanging(GrainSpan grains) const {
-    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
-    const ContactSets sets(grains, contacts);
-    const std::vector<bool> left = sets.Reaching(kLeftShelf), right = sets.Reaching(kRightShelf);
-    const std::vector<bool> stands = sets.Reaching(kLowerFloor);
-    std::vector<bool> hangs(grains.size());
-    for (std::size_t i = 0; i < grains.size(); ++i) hangs[i] = (left[i] || right[i]) && !stands[i];
-    return hangs;
-  }
-
   // Beneath the shelves [kg].
   double MassBelow(GrainSpan grains) const {
     const double height = rig_case().rig.draw_down.height;

@@ -55,4 +55,16 @@ std::vector<bool> ContactSets::Reaching(int wall) const {
   return reaching;
 }
 
+std::vector<bool> ContactSets::Hanging(std::initializer_list<int> walls, int floor) const {
+  const std::vector<bool> stands = Reaching(floor);
+  std::vector<bool> hangs(set_.size(), false);
+  for (const int wall : walls) {
+    const std::vector<bool> reaches = Reaching(wall);
+    for (std::size_t i = 0; i < hangs.size(); ++i) {
+      if (reaches[i] && !stands[i]) hangs[i] = true;
+    }
+  }
+  return hangs;
+}
+
 }  // namespace talus::rigs

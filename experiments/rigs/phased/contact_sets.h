@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ class ContactSets {
   std::vector<bool> Touching(int wall) const;
   // For each particle, whether a chain of contacts leads to the wall.
   std::vector<bool> Reaching(int wall) const;
+  // For each particle, whether a chain leads to one of the walls and none to the floor.
+  std::vector<bool> Hanging(std::initializer_list<int> walls, int floor) const;
 
  private:
   std::vector<std::size_t> set_;    // of each particle
