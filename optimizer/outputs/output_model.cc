@@ -61,6 +61,11 @@ double Compress(const ScalarTarget& target, double value) {
   return std::asinh(value / CompressionScale(target));
 }
 
+double CompressedError(const ScalarTarget& target) {
+  const double scale = CompressionScale(target);
+  return target.standard_error / std::sqrt(scale * scale + target.value * target.value);
+}
+
 OutputModel::OutputModel(OutputSetup setup, const OutputData& data, const OutputState* frozen)
     : setup_(std::move(setup)), num_evaluations_(data.size()) {
   if (!data.vectors.empty()) modes_ = frozen != nullptr ? frozen->modes : FitImages(setup_, data);
@@ -98,6 +103,10 @@ surrogate::GaussianProcessOptions OutputModel::OptionsFor(Eigen::Index output,
   options.priors = surrogate::PriorsOfOutputs(
       output < num_modes() ? NoiseOfMode(setup_.levels, static_cast<int>(output), next_sd, spread)
                            : NoiseOfScalar(setup_.levels));
+  if (output >= num_modes()) {
+    options.usual_sd =
+        CompressedError(setup_.scalars[static_cast<std::size_t>(output - num_modes())]);
+  }
   options.warp_inputs = true;
   // One of many processes, which are fitted again and again as evaluations come in. Of several
   // scale factors every evaluation counts, since the finest are few.

@@ -107,6 +107,7 @@ class OutputModel {
 // it matters. Linear up to the target.
 double Compress(const ScalarTarget& target, double value);
 double CompressionScale(const ScalarTarget& target);  // Compress = asinh(value / scale)
+double CompressedError(const ScalarTarget& target);   // the target's standard error, compressed
 
 // A Gaussian process costs the cube of its evaluations: beyond these an answer takes minutes.
 constexpr int kMostEvaluations = 400;

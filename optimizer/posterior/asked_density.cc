@@ -79,7 +79,6 @@ Eigen::VectorXd AskedDensity::LogProposal(const Eigen::VectorXd& point,
   return most + (0.5 * (near - most).exp() + 0.5 * (all - most).exp()).log();
 }
 
-// A node outside the domain has no density.
 AskedDensity::Nodes AskedDensity::Weighted(const Eigen::MatrixXd& points) const {
   const Eigen::Index each = domain_.nuisances.empty() ? 1 : 2 * normals_.rows();
   Nodes nodes{.points = Eigen::MatrixXd(points.rows() * each, points.cols()),
@@ -90,16 +89,20 @@ AskedDensity::Nodes AskedDensity::Weighted(const Eigen::MatrixXd& points) const 
     nodes.points.middleRows(i * each, each) = at;
     nodes.log_weight.segment(i * each, each) = -LogProposal(point, at);
   }
-  nodes.log_weight += density_(nodes.points);
-  for (Eigen::Index j = 0; j < nodes.points.rows() && each > 1; ++j) {
-    if (domain_.Contains(nodes.points.row(j))) continue;
-    nodes.log_weight[j] = -std::numeric_limits<double>::infinity();
-  }
+  nodes.log_weight += DensityInside(nodes.points);
   return nodes;
 }
 
+Eigen::VectorXd AskedDensity::DensityInside(const Eigen::MatrixXd& points) const {
+  Eigen::VectorXd density = density_(points);
+  for (Eigen::Index j = 0; j < points.rows(); ++j) {
+    if (!domain_.Contains(points.row(j))) density[j] = -std::numeric_limits<double>::infinity();
+  }
+  return density;
+}
+
 Eigen::VectorXd AskedDensity::LogDensity(const Eigen::MatrixXd& points) const {
-  if (domain_.nuisances.empty()) return density_(points);
+  if (domain_.nuisances.empty()) return DensityInside(points);
   Eigen::VectorXd density(points.rows());
   for (Eigen::Index from = 0; from < points.rows(); from += kBlock) {
     const Eigen::Index size = std::min(kBlock, points.rows() - from);

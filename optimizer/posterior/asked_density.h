@@ -45,6 +45,8 @@ class AskedDensity {
   Eigen::MatrixXd NodesAt(const Eigen::VectorXd& point) const;
   Eigen::VectorXd LogProposal(const Eigen::VectorXd& point, const Eigen::MatrixXd& nodes) const;
   Nodes Weighted(const Eigen::MatrixXd& points) const;  // of each point in turn
+  // The joint density; none, -infinity, outside the domain.
+  Eigen::VectorXd DensityInside(const Eigen::MatrixXd& points) const;
   // The share of what is searched of the parameters asked for.
   double RegionVolume(const PosteriorSample& sample) const;
 

@@ -4,20 +4,27 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
 namespace {
-
-double CompressionSlope(const ScalarTarget& target) {
-  const double scale = CompressionScale(target);
-  return 1 / std::sqrt(scale * scale + target.value * target.value);
-}
 
 // A compressed number's median and sd as the number itself has them.
 Moments InOwnUnit(const ScalarTarget& target, const surrogate::Predictions& compressed) {
   const double scale = CompressionScale(target);
   return {.mean = scale * compressed.mean.array().sinh(),
           .sd = scale * compressed.mean.array().cosh() * compressed.variance.array().sqrt()};
+}
+
+// Distinct sets at a scale factor: what is repeated says nothing of another place.
+double NumSetsAt(const OutputData& data, int level) {
+  std::vector<const Eigen::VectorXd*> sets;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const auto is_it = [&](const auto* set) { return SamePoint(*set, data.points[i]); };
+    if (data.level[i] != level || std::ranges::any_of(sets, is_it)) continue;
+    sets.push_back(&data.points[i]);
+  }
+  return static_cast<double>(sets.size());
 }
 
 constexpr double kOfMany = 1.2;  // SurrogateCaution of many evaluations
@@ -44,7 +51,7 @@ ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
                                  const OutputState* frozen)
     : setup_(setup),
       outputs_({.levels = *setup.levels, .scalars = setup.target->scalars}, data, frozen) {
-  num_finest_ = static_cast<double>(std::ranges::count(data.level, setup_.levels->finest()));
+  num_finest_ = NumSetsAt(data, setup_.levels->finest());
   TakeForFinest(1);
   measured_ = Eigen::VectorXd::Zero(num_outputs());
   error_ = Eigen::VectorXd::Ones(num_outputs());
@@ -108,7 +115,7 @@ void ExperimentModel::MeasureScalars() {
   const auto& scalars = setup_.target->scalars;
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
-    const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
+    const double error = CompressedError(scalars[s]);
     measured_[k] = Compress(scalars[s], scalars[s].value);
     error_[k] = error * error;
     unmatched_[k] = outputs_.TargetNoise(k);

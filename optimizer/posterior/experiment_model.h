@@ -161,7 +161,7 @@ class ExperimentModel {
   void MeasureScalars();
 
   Setup setup_;
-  double num_finest_ = 0;  // evaluations at the finest scale factor
+  double num_finest_ = 0;  // sets evaluated at the finest scale factor
   double caution_ = 1;     // SurrogateCaution
   OutputModel outputs_;
   Eigen::VectorXd measured_;   // each output

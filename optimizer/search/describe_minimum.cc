@@ -194,6 +194,40 @@ std::vector<Eigen::VectorXd> FarthestApart(const Eigen::MatrixXd& points,
   return chosen;
 }
 
+std::vector<double> LevelsIn(const Domain& domain, const Box& box, Eigen::Index k) {
+  std::vector<double> inside;
+  for (const double level : domain.levels[static_cast<std::size_t>(k)]) {
+    if (level >= box.low[k] && level <= box.high[k]) inside.push_back(level);
+  }
+  return inside;
+}
+
+// Points of a box with levelled coordinates evenly on the levels in it.
+Eigen::MatrixXd OnLevels(const Domain& domain, const Box& box, Eigen::MatrixXd points) {
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    if (!domain.HasLevels(k)) continue;
+    const std::vector<double> inside = LevelsIn(domain, box, k);
+    const auto size = static_cast<double>(inside.size());
+    points.col(k) = points.col(k).unaryExpr([&](double x) {
+      const double share = (x - box.low[k]) / (box.high[k] - box.low[k]);
+      return inside[static_cast<std::size_t>(std::clamp(share * size, 0.0, size - 1))];
+    });
+  }
+  return points;
+}
+
+// Of all there is: of a levelled coordinate its levels count.
+double ShareOf(const Domain& domain, const Box& box) {
+  double share = 1;
+  for (Eigen::Index k = 0; k < box.low.size(); ++k) {
+    share *= domain.HasLevels(k)
+                 ? static_cast<double>(LevelsIn(domain, box, k).size()) /
+                       static_cast<double>(domain.levels[static_cast<std::size_t>(k)].size())
+                 : box.high[k] - box.low[k];
+  }
+  return share;
+}
+
 // The tied set is found in the cube and near the answer, then measured by an even sample of the box
 // it lies in, so that its volume is known however small it is.
 void DescribeTies(const ObjectiveModel& model, const Domain& domain,
@@ -210,9 +244,10 @@ void DescribeTies(const ObjectiveModel& model, const Domain& domain,
   }
   const Eigen::MatrixXd tied = Stack(Below(model, candidates, level), answer.point.transpose());
   const Box box = Wrap(tied);
-  const Eigen::MatrixXd inside = Below(model, Inside(domain, RSequenceIn(box, options)), level);
+  const Eigen::MatrixXd even = OnLevels(domain, box, RSequenceIn(box, options));
+  const Eigen::MatrixXd inside = Below(model, Inside(domain, even), level);
   answer.tied_volume =
-      (box.high - box.low).prod() * static_cast<double>(inside.rows()) / options.num_candidates;
+      ShareOf(domain, box) * static_cast<double>(inside.rows()) / options.num_candidates;
   answer.tied = FarthestApart(inside, answer.point, kNumTied);
 }
 

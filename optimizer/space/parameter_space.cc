@@ -98,6 +98,8 @@ void Parameter::Validate(base::Problems& problems) const {
   base::RequireName(problems, "name", name);
   if (fixed) {
     problems.Require(std::isfinite(*fixed), "fixed", *fixed, "must be finite");
+    problems.Require(std::isnan(low), "low", low, "has no meaning beside \"fixed\"");
+    problems.Require(std::isnan(high), "high", high, "has no meaning beside \"fixed\"");
     problems.Require(!guess, "guess", "has no meaning beside \"fixed\"");
     problems.Require(levels.empty(), "levels", "have no meaning beside \"fixed\"");
     return;

@@ -24,6 +24,20 @@ double Prior::Single::Score(double unit) const {
   return ((normal.of_logarithm ? std::log(value) : value) - normal.mean) / normal.sd;
 }
 
+// A normal variable between two ends: with φ and Φ of the standard normal, Z = Φ(b) - Φ(a), its
+// mean is (φ(a) - φ(b)) / Z and its variance 1 + (a φ(a) - b φ(b)) / Z - mean².
+Prior::Single::Moments Prior::Single::ScoreWithin() const {
+  const double a = Score(0), b = Score(1);
+  const auto density = [](double z) {
+    return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+  };
+  const double inside =
+      0.5 * (std::erfc(-b / std::numbers::sqrt2) - std::erfc(-a / std::numbers::sqrt2));
+  const double mean = (density(a) - density(b)) / inside;
+  return {.mean = mean,
+          .sd = std::sqrt(1 + (a * density(a) - b * density(b)) / inside - mean * mean)};
+}
+
 double Prior::Single::LogDensity(double unit) const {
   const double score = Score(unit);
   const double slope =  // dt/du
@@ -71,9 +85,11 @@ Eigen::VectorXd Prior::Offset(const Eigen::MatrixXd& draws) const {
   Eigen::VectorXd offset =
       Eigen::VectorXd::Constant(draws.cols(), std::numeric_limits<double>::quiet_NaN());
   for (const Single& single : normals_) {
-    offset[single.coordinate] = draws.col(single.coordinate)
-                                    .unaryExpr([&](double unit) { return single.Score(unit); })
-                                    .mean();
+    const Single::Moments within = single.ScoreWithin();
+    const double mean = draws.col(single.coordinate)
+                            .unaryExpr([&](double unit) { return single.Score(unit); })
+                            .mean();
+    offset[single.coordinate] = (mean - within.mean) / within.sd;
   }
   for (const Joint& joint : joint_) {
     for (std::size_t k = 0; k < joint.coordinates.size(); ++k) {

@@ -38,8 +38,8 @@ class Prior {
   // One a row, `dimension` coordinates each; some may lie outside the cube or be NaN.
   Eigen::MatrixXd Draw(Eigen::Index count, Eigen::Index dimension, std::uint64_t seed) const;
 
-  // How far the mean of `draws` (one a row) lies from that of the prior, in its standard
-  // deviations, on the scale that it is normal on; NaN where it is uniform.
+  // How far the mean of `draws` (one a row) lies from that of the prior inside the range, in its
+  // standard deviations there, on the scale that it is normal on; NaN where it is uniform.
   Eigen::VectorXd Offset(const Eigen::MatrixXd& draws) const;
 
  private:
@@ -48,7 +48,13 @@ class Prior {
     ScaledRange range;
     NormalPrior normal;
 
+    struct Moments {
+      double mean = 0;
+      double sd = 1;
+    };
+
     double Score(double unit) const;  // (t - mean) / sd
+    Moments ScoreWithin() const;      // of the score of the prior that the range cuts
     double LogDensity(double unit) const;
     double AtScore(double score) const;  // its inverse
   };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/random.h"
@@ -18,8 +17,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr int kOfAddedTest = 8;  // of the design, for an experiment that is added later
-constexpr int kFewestFiner = 3;  // of a finer scale factor, before gain alone decides
 constexpr double kEdgeError =
     0.1;                          // of the powder: above it, heaps overhang and pixels serve better
 constexpr double kExploring = 4;  // softness of every other sample of candidates
@@ -258,70 +255,6 @@ Proposal PosteriorStrategy::Next(std::span<const Proposal> asked) {
           .scale_factor = levels_.factor(0)};
 }
 
-// Whether the model has chosen a simulation already. An experiment without its design was added
-// later then: a few evaluations all over the ranges are enough, since what the others say tells
-// where more of them matter.
-bool PosteriorStrategy::IsUnderWay() const {
-  return std::any_of(observations_.begin(), observations_.end(), [&](const Observation& told) {
-    return std::none_of(design_.rowwise().begin(), design_.rowwise().end(),
-                        [&](const auto& row) { return SamePoint(told.point, row.transpose()); });
-  });
-}
-
-// Every experiment at the same points: what their residuals share is part of the posterior.
-std::optional<Proposal> PosteriorStrategy::FromDesign(std::span<const Proposal> asked) const {
-  const bool under_way = IsUnderWay();
-  const Eigen::Index size =
-      under_way ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
-  // Any evaluations at the coarsest scale factor will do for an added one; but those made before a
-  // parameter was searched do not tell what it does.
-  const auto has_enough = [&](int e) {
-    const auto is_it = [&](const auto& other) {
-      return other.experiment == e && levels_.LevelOf(other.scale_factor) == 0 &&
-             !domain_.IsBeforeAdded(other.point);
-    };
-    return under_way && std::count_if(asked.begin(), asked.end(), is_it) +
-                                std::count_if(observations_.begin(), observations_.end(), is_it) >=
-                            size;
-  };
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Eigen::VectorXd point = design_.row(i);
-    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
-      const auto is_it = [&](const auto& other) {
-        return other.experiment == e && SamePoint(other.point, point);
-      };
-      if (has_enough(e) || std::any_of(asked.begin(), asked.end(), is_it) ||
-          std::any_of(observations_.begin(), observations_.end(), is_it)) {
-        continue;
-      }
-      return Proposal{.point = point,
-                      .origin = Origin::kDesign,
-                      .experiment = e,
-                      .scale_factor = levels_.factor(0)};
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<Proposal> PosteriorStrategy::TooFewAt(const Eigen::VectorXd& point,
-                                                    std::span<const Proposal> asked) const {
-  for (int level = 1; level < levels_.size(); ++level) {
-    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
-      const auto is_it = [&](const auto& other) {
-        return other.experiment == e && levels_.LevelOf(other.scale_factor) == level;
-      };
-      const auto count = std::count_if(asked.begin(), asked.end(), is_it) +
-                         std::count_if(observations_.begin(), observations_.end(), is_it);
-      if (count >= kFewestFiner) continue;
-      return Proposal{.point = point,
-                      .origin = Origin::kModel,
-                      .experiment = e,
-                      .scale_factor = levels_.factor(level)};
-    }
-  }
-  return std::nullopt;
-}
-
 Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
   const std::size_t turn = observations_.size() + asked.size();
   const std::uint64_t seed = options_.seed + 7919 * turn;
@@ -354,10 +287,12 @@ double PosteriorStrategy::Price(std::span<const Proposal> asked) const {
   const double used = static_cast<double>(observations_.size() + asked.size());
   if (options_.core_time <= 0 || used >= options_.simulations) return 0;
   double spent = 0;
-  for (const Told& told : told_) spent += std::accumulate(told.cost.begin(), told.cost.end(), 0.0);
-  for (const Proposal& p : asked) {
-    spent += CostOf(static_cast<std::size_t>(p.experiment), levels_.LevelOf(p.scale_factor));
-  }
+  const auto usual = [&](const auto& evaluation) {
+    return CostOf(static_cast<std::size_t>(evaluation.experiment),
+                  levels_.LevelOf(evaluation.scale_factor));
+  };
+  for (const Observation& o : observations_) spent += o.cost > 0 ? o.cost : usual(o);
+  for (const Proposal& p : asked) spent += usual(p);
   if (used / options_.simulations <= spent / options_.core_time) return 0;
   return (options_.core_time - spent) / (options_.simulations - used);
 }

@@ -113,6 +113,8 @@ class PosteriorStrategy : public Strategy {
   Outlook OutlookBy(const Eigen::MatrixXd& draws);  // of any number of further evaluations
   const Outlook& OutlookNow();
   bool IsFarFromTheEnd();
+  template <class Counted>
+  int NumSets(std::span<const Proposal> asked, int most, const Counted& counted) const;
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);

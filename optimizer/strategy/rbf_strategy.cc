@@ -36,17 +36,22 @@ const surrogate::RadialBasis& RbfStrategy::Fit() {
   return fit_.emplace(of_plate < of_cubic ? std::move(plate) : std::move(cubic));
 }
 
+// Where evaluations are likely to fail the surrogate, which knows none there, says nothing.
 Eigen::VectorXd RbfStrategy::Lowest(const surrogate::RadialBasis& basis) const {
+  const History& history = record().history();
+  const Feasibility& feasibility = record().feasibility();
+  const double failure_cost = history.values.maxCoeff() - history.values.minCoeff();
   const auto values = [&](const Eigen::MatrixXd& points) {
-    Eigen::VectorXd result(points.rows());
-    for (Eigen::Index i = 0; i < points.rows(); ++i) result[i] = basis.Predict(points.row(i));
+    Eigen::VectorXd result = -failure_cost * feasibility.Penalty(points);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) result[i] += basis.Predict(points.row(i));
     return result;
   };
   const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
-    if (gradient != nullptr) *gradient = basis.Gradient(x);
-    return basis.Predict(x);
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(x.size());
+    const double penalty = feasibility.Penalty(x, gradient != nullptr ? &slope : nullptr);
+    if (gradient != nullptr) *gradient = basis.Gradient(x) - failure_cost * slope;
+    return basis.Predict(x) - failure_cost * penalty;
   };
-  const History& history = record().history();
   Eigen::Index best = 0;
   history.values.minCoeff(&best);
   return SearchCube({values, value}, record().domain(), history.points.row(best),

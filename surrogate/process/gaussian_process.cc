@@ -15,10 +15,11 @@ namespace talus::surrogate {
 namespace {
 
 // Mean and standard deviation of the values, with a standard deviation that is safe to divide by.
-GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
+GaussianProcessState ScaleOf(const Eigen::VectorXd& values, double usual_sd) {
   const double centre = values.mean();
   const double sd = StandardDeviation(values);
   if (sd > 1e-12 * std::abs(centre)) return {.hyper = {}, .centre = centre, .scale = sd};
+  if (usual_sd > 0) return {.hyper = {}, .centre = centre, .scale = usual_sd};
   // All the same: their own size is the only one there is, and zeros have none. A tiny scale would
   // make the process certain everywhere.
   return {.hyper = {}, .centre = centre, .scale = centre != 0 ? std::abs(centre) : 1};
@@ -52,7 +53,7 @@ GaussianProcess GaussianProcess::Fit(const Evaluations& evaluations,
       !evaluations.points.allFinite() || !values.allFinite()) {
     throw base::Error("a Gaussian process needs at least one point and finite values");
   }
-  GaussianProcessState state = options.frozen ? *options.frozen : ScaleOf(values);
+  GaussianProcessState state = options.frozen ? *options.frozen : ScaleOf(values, options.usual_sd);
   const auto num_levels = static_cast<Eigen::Index>(options.priors.noise.size());
   Evaluations scaled = evaluations;
   scaled.values = (values.array() - state.centre) / state.scale;

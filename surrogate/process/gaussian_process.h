@@ -44,6 +44,7 @@ struct GaussianProcessOptions {
   bool warp_inputs = false;    // infer an input warping of each coordinate (warp.h)
   bool deterministic = false;  // the same point always gives the same value: noise = floor
   double noise_floor = 1e-8;   // noise variance / variance of the values then, > 0
+  double usual_sd = 0;         // of the values, for some that are all the same; 0: their own size
   HyperPriors priors = {};     // noise: as many as there are scale factors
   FitEffort effort = {};
   std::uint64_t seed = 1;                           // of the draws from the prior

@@ -106,6 +106,14 @@ TEST(CandidateTable, CellsThatBelongToNoColumnAreRefusedAndQuotedOnesAreOne) {
   EXPECT_THAT(ErrorIn([&] { read("a,b\n\"1,2\n"); }), HasSubstr("cells.csv:2: has a quote"));
 }
 
+TEST(ParameterSpace, WhatIsFixedHasNoRange) {
+  const std::string error =
+      ErrorOf(R"({"parameters": [{"name": "a", "fixed": 1, "low": 0, "high": 2, "guess": 1}]})");
+  for (const char* key : {"low", "high", "guess"}) {
+    EXPECT_THAT(error, HasSubstr("parameters[0]." + std::string(key)));
+  }
+}
+
 TEST(ParameterSpace, WantsOneToSixFreeParameters) {
   EXPECT_THAT(ErrorOf(R"({"parameters": [{"name": "a", "fixed": 1}]})"), HasSubstr("0 are free"));
   std::string list;

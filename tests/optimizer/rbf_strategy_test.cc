@@ -26,6 +26,19 @@ TEST(RbfStrategy, FindsTheMinimumWithAndWithoutNoise) {
   EXPECT_LT(RunFor(*noisy, 40, 0.03), 0.02);
 }
 
+// The surrogate knows no value there, and carries the slope on.
+TEST(RbfStrategy, DoesNotRecommendWhereEvaluationsFail) {
+  const auto strategy =
+      MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 1}, nullptr, 1);
+  for (int i = 0; i < 25; ++i) {
+    base::Random random(static_cast<std::uint64_t>(i), base::Stream("slope noise"));
+    const auto point = strategy->Ask(1, {}).at(0).point;
+    const bool failed = point[0] > 0.6;
+    strategy->Tell({.point = point, .failed = failed, .value = -point[0] + 0.03 * random.Normal()});
+  }
+  EXPECT_LT(strategy->Recommend().point[0], 0.75);  // the nearest failure seen is beyond 0.6
+}
+
 TEST(RbfStrategy, ToldTheSameProposesTheSameAndBatchesDiffer) {
   const auto first = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
   const auto second = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);

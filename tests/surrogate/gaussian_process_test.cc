@@ -79,6 +79,17 @@ TEST(GaussianProcess, PredictionsEqualTheDenseFormulaWithReplicatesUnpooled) {
   }
 }
 
+// A mass that every simulation shows alike is not known to 1 % of itself only.
+TEST(GaussianProcess, ValuesThatAreAllTheSameHaveTheScaleThatTheCallerKnows) {
+  const Eigen::MatrixXd points = RandomPoints(10, 2, 3);
+  const Eigen::VectorXd values = Eigen::VectorXd::Constant(10, 0.9);
+  const auto own = GaussianProcess::Fit({points, values}, {});
+  const auto known = GaussianProcess::Fit({points, values}, {.usual_sd = 0.9e-3});
+  const double ratio = known.Predict(points.row(0)).variance / own.Predict(points.row(0)).variance;
+  EXPECT_NEAR(ratio, 1e-6, 1e-12);  // one fit in another unit
+  EXPECT_NEAR(known.Predict(points.row(0)).mean, 0.9, 1e-12);
+}
+
 TEST(GaussianProcess, WarpingIsFittingAtWarpedPoints) {
   const Sample sample = WithReplicates();
   const GaussianProcessState plain = KnownState(0.1);

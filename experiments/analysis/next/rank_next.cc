@@ -45,6 +45,12 @@ int CountAt(const JointView& view, int experiment, double factor) {
       }));
 }
 
+// As many simulations as there are at the smallest scale factor, and a few where there are fewer.
+int AsManyAgain(const JointView& view, int experiment) {
+  constexpr int kFew = 3;
+  return std::max(kFew, CountAt(view, experiment, view.spec.coarse_graining.Levels().back()));
+}
+
 NextCandidate MoreRuns(const Ground& ground, const Known& known) {
   const auto e = static_cast<std::size_t>(known.experiment);
   const int num_heaps = ground.view.record.experiments[e].num_heaps;
@@ -58,7 +64,7 @@ NextCandidate MoreRuns(const Ground& ground, const Known& known) {
 
 NextCandidate MoreSimulations(const Ground& ground, const Known& known, Cost& cost) {
   const double finest = ground.view.spec.coarse_graining.Levels().back();
-  const int count = CountAt(ground.view, known.experiment, finest);
+  const int count = AsManyAgain(ground.view, known.experiment);
   return {.kind = NextKind::kMoreSimulations,
           .name = "more simulations of " + ground.view.NameOf(known.experiment),
           .what = std::to_string(count) + " more at the smallest scale factor",
@@ -75,7 +81,7 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
   const double finest = ground.view.spec.coarse_graining.Levels().back();
   if (finest <= 1) return;
   const double finer = std::max(1.0, finest / kStep);
-  const int count = CountAt(ground.view, known.experiment, finest);
+  const int count = AsManyAgain(ground.view, known.experiment);
   const double share = std::pow(finer / ground.view.spec.coarse_graining.Target(), 3);
   if (share >= 1) return;  // the answer is for finer grains already
   all.push_back(

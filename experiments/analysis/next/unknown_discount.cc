@@ -12,9 +12,10 @@
 namespace talus::analysis {
 namespace {
 
-// δ of each thing that moves the test beyond chance.
-std::vector<Eigen::VectorXd> ListShifts(const UnknownTrials& unknown, const UnknownRows& rows,
-                                        NextCandidate& candidate) {
+// δ of each thing that moves the test beyond chance, over the root of the temper: variances are
+// those before tempering.
+std::vector<Eigen::VectorXd> ListShifts(double temper, const UnknownTrials& unknown,
+                                        const UnknownRows& rows, NextCandidate& candidate) {
   std::vector<Eigen::MatrixXd> sets{rows.base};
   sets.insert(sets.end(), rows.moved.begin(), rows.moved.end());
   const Eigen::VectorXd noise = rows.noise.cwiseMax(PooledVariance(sets));
@@ -23,13 +24,15 @@ std::vector<Eigen::VectorXd> ListShifts(const UnknownTrials& unknown, const Unkn
     const Eigen::VectorXd shift = ShiftBeyondChance(
         {.moved = rows.moved[m], .base = rows.base, .noise = noise, .num_modes = rows.num_modes});
     if (shift.isZero(0)) continue;
+    const Eigen::VectorXd untempered = shift / std::sqrt(temper);
     const MovedTest& moved = unknown.moved[m];
     const Eigen::ArrayXd errors = candidate.predicted.variance.array();
-    candidate.unknowns.push_back({.name = moved.name,
-                                  .from = moved.from,
-                                  .to = moved.to,
-                                  .shift = std::sqrt((shift.array().square() / errors).sum())});
-    shifts.push_back(shift);
+    candidate.unknowns.push_back(
+        {.name = moved.name,
+         .from = moved.from,
+         .to = moved.to,
+         .shift = std::sqrt((untempered.array().square() / errors).sum())});
+    shifts.push_back(untempered);
   }
   return shifts;
 }
@@ -57,7 +60,7 @@ std::string DiscountText(const NextCandidate& candidate) {
 
 void Discount(const Ground& ground, const UnknownTrials& unknown, const UnknownRows& rows,
               NextCandidate& candidate) {
-  const std::vector<Eigen::VectorXd> shifts = ListShifts(unknown, rows, candidate);
+  const std::vector<Eigen::VectorXd> shifts = ListShifts(ground.temper, unknown, rows, candidate);
   if (shifts.empty()) return;
   const optimizer::PredictedMeasurement less = WithShifts(candidate.predicted, shifts);
   candidate.bits_if_known = candidate.learning->bits;

@@ -10,12 +10,12 @@ void ShiftField::Add(const Eigen::VectorXd& point, Shift shift) {
 }
 
 Eigen::MatrixXd ShiftField::At(const Eigen::MatrixXd& points) const {
-  constexpr double kSamePoint = 1e-9;  // squared distance that leaves the weights finite
+  constexpr double kLeastSquare = 1e-9;  // of a distance, by which the weights stay finite
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(points.rows(), shifts_.front().mean.size());
   Eigen::VectorXd total = Eigen::VectorXd::Zero(points.rows());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::VectorXd weight =
-        ((points.rowwise() - points_[i].transpose()).rowwise().squaredNorm().array() + kSamePoint)
+        ((points.rowwise() - points_[i].transpose()).rowwise().squaredNorm().array() + kLeastSquare)
             .inverse();
     shift += weight * shifts_[i].mean.transpose();
     total += weight;

@@ -19,6 +19,7 @@ namespace {
 using optimizer::ExperimentModel;
 
 constexpr int kHoldOutDraws = 400;
+constexpr double kRegionMass = 0.9;
 
 // Draws of what would be measured: the simulated mean, its uncertainty and the measurement's error.
 PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::Moments& at,
@@ -91,9 +92,11 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   ResultHeldOut& predicted = result.predicted;
   predicted.implausibility = posterior.Implausibility(0, answer);
   predicted.least_implausibility = predicted.implausibility;
-  for (const auto& draw : draws.rowwise()) {
-    predicted.least_implausibility =
-        std::min(predicted.least_implausibility, posterior.Implausibility(0, draw.transpose()));
+  const Eigen::VectorXd levels = of_others->CredibleLevels(draws).value();
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    if (levels[i] > kRegionMass) continue;
+    predicted.least_implausibility = std::min(
+        predicted.least_implausibility, posterior.Implausibility(0, draws.row(i).transpose()));
   }
   if (model.has_image()) {
     const optimizer::Moments at = model.Objective(answer.transpose());
