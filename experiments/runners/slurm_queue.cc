@@ -64,6 +64,13 @@ SlurmState StateOf(const SlurmStates& states, const std::string& array, int task
   return {kLost, ""};
 }
 
+bool IsInQueue(const SlurmStates& states, const std::string& array) {
+  return std::ranges::any_of(states, [&](const auto& known) {
+    const auto& [job, state] = known;
+    return (job == array || job.starts_with(array + "_")) && IsUnfinished(state);
+  });
+}
+
 SlurmStates ParseSqueue(std::string_view output) {
   SlurmStates states;
   std::istringstream lines{std::string(output)};

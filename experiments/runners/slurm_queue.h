@@ -34,6 +34,9 @@ using SlurmStates = std::map<std::string, SlurmState, std::less<>>;
 // "1234_[7-9]". LOST when there is none.
 SlurmState StateOf(const SlurmStates& states, const std::string& array, int task);
 
+// Whether any task of the array may still run.
+bool IsInQueue(const SlurmStates& states, const std::string& array);
+
 // Lines of `squeue -o "%i|%T|%r|%M"` and of `sacct -o JobID,State,Elapsed`, where the last columns
 // may be missing; other lines are left out.
 SlurmStates ParseSqueue(std::string_view output);

@@ -248,8 +248,12 @@ void SlurmRunner::Poll() {
   for (auto& [id, task] : tasks_) {
     if (task.array.empty()) continue;
     const SlurmState state = StateOf(*reply.states, task.array, task.index);
+    if (!task.begun && state.name == kLost) {
+      task.vanished = IsInQueue(*reply.states, task.array);
+    }
     task.begun = !IsWaiting(state);
     if (IsUnfinished(state)) {
+      task.vanished = false;
       task.ended.reset();
     } else if (!task.ended || task.ended->name != state.name) {
       task.ended = state;
@@ -285,6 +289,9 @@ void SlurmRunner::Judge(Task task) {
     Report(task, FinishedBy(task.job.id, *end));
   } else if (verdict.await_result && waited < options_.result_delay) {
     LookAgain(task.job.folder);
+  } else if (task.vanished && !fs::exists(LogFileOf(task))) {  // which Slurm makes when it begins
+    Report(task, Finished(task.job.id, JobEnd::kCancelled,
+                          "was cancelled in Slurm while it waited there"));
   } else if (verdict.requeue && !task.cancelled && task.requeues < options_.max_requeues &&
              !task.job.command.empty()) {  // empty for an adopted job: its owner must run it again
     Requeue(task, verdict.reason);

@@ -53,8 +53,9 @@ class SlurmRunner : public Runner {
     int requeues = 0;     // by us
     std::string requeue_reason{};
     bool cancelled = false;
-    bool begun = false;    // as Slurm says
-    bool dropped = false;  // cancelled by an earlier process, not for any fault of the job
+    bool begun = false;     // as Slurm says
+    bool vanished = false;  // Slurm forgot it while it waited, and not the rest of its array
+    bool dropped = false;   // cancelled by an earlier process, not for any fault of the job
     std::optional<SlurmState> ended{};  // what Slurm says, once it is final
     Clock::time_point ended_since{};
 

@@ -288,6 +288,24 @@ TEST_F(SlurmRunnerTest, CancelledJobIsReportedOnceSlurmHasStoppedIt) {
   EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
 }
 
+// Without accounting Slurm forgets such a job at once.
+TEST_F(SlurmRunnerTest, AWaitingJobThatSomebodyCancelsIsNotSubmittedAgain) {
+  Put("hold", "");
+  options_.result_delay = 0.2;
+  options_.max_requeues = 0;
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true"), Shell(3, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|RUNNING|None\n101_1|PENDING|Resources\n101_2|RUNNING|None\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.3).empty());
+  Put("queue", "101_0|RUNNING|None\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_EQ(finished[0].id, 2);
+  EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
+  EXPECT_EQ(finished[1].end, JobEnd::kNodeFailure);  // it had begun
+}
+
 // Ctrl-C pressed twice, then `talus resume`: the trials are run again, not recorded as failed.
 TEST_F(SlurmRunnerTest, JobsCancelledByAnEarlierProcessMayRunAgain) {
   Put("hold", "");
