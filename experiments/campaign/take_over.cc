@@ -111,7 +111,7 @@ TakenOver TakeOverDesigns(const CampaignFolder& folder,
       trial.kind = journal::TrialKind::kDesign;
       trial.kind_index = numbers.kind_index;
       trial.set = numbers.set;
-      trial.origin = "design";
+      trial.origin = journal::kOriginNext;
       if (!TakeOver(folder, experiment, former, trial, engine, taken)) continue;
       ++numbers.id;
       ++numbers.kind_index;

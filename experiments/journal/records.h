@@ -133,14 +133,17 @@ struct ProgressRecord {
   std::string stop_json{};        // of the rule that has ended the search, as result.json has it
 };
 
+// Origin of a trial of the design that `talus next` had simulated before its test was added.
+inline constexpr const char* kOriginNext = "next";
+
 struct TrialRecord {
   std::int64_t id = 0;  // from 1; the folder is trials/0001
   TrialKind kind = TrialKind::kSearch;
   // Its number within noise, within design and search, within confirm, within reused.
   std::int64_t kind_index = 0;
   std::int64_t set = 0;        // replicates of one proposal, and of one candidate, share a number
-  std::string origin;          // of the proposal: design, repeat, model, search; of a reused one
-                               // the folder it was made in; "" otherwise
+  std::string origin;          // of the proposal: design, repeat, model, search, or kOriginNext; of
+                               // a reused one the folder it was made in; "" otherwise
   std::string objective;       // that the proposal was made for
   std::vector<double> unit;    // unit cube, in the order of the campaign's parameters
   std::vector<double> native;  // SI

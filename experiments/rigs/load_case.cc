@@ -38,12 +38,14 @@ void ValidatePouringTime(const Case& c, const Vessel& vessel, base::Problems& pr
 // A grain that sinks too deeply into what it falls on would be pressed through the floor.
 void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems) {
   const double mouth = MouthDiameter(c, vessel);
+  const bool fits =
+      mouth < vessel.across && (!c.filling.mouth_diameter || mouth > 2 * LargestDiameter(c));
   problems.Require(mouth < vessel.across, "filling.mouth_diameter", mouth,
                    c.rig.kind == RigKind::kLiftedTube ? "must be below device.tube_inner_diameter"
                                                       : "must be below the width of the vessel");
   problems.Require(!c.filling.mouth_diameter || mouth > 2 * LargestDiameter(c),
                    "filling.mouth_diameter", mouth, "must be above two (scaled) grain diameters");
-  ValidatePouringTime(c, vessel, problems);
+  if (fits) ValidatePouringTime(c, vessel, problems);
   if (!problems.empty()) return;
   const double share = ImpactShare(c, vessel);
   if (share <= kMaxImpactShare) return;

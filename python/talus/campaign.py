@@ -68,6 +68,9 @@ def _taken_again(spec):
     experiments = spec.get("experiments") or [spec["experiment"]]
     if not any(images in one for one in experiments for images in ("photos", "runs", "map", "film")):
         spec.pop("objective", None)  # of images
+    powder = spec.get("powder", {})
+    if "mass" in powder and all("fill" in one.get("rig", {}) for one in experiments):
+        powder.pop("mass")  # which only followed from the fills
     grains = spec.get("coarse_graining", {})
     if "scale_factors" in grains:
         grains.pop("scale_factor", None)

@@ -241,6 +241,21 @@ class Card(unittest.TestCase):
                                       text=True)
                 self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr)
 
+    # makeCloud throws where the shares do not go from 0 to 1, and for a single size.
+    def test_yade_is_given_its_grains(self):
+        equal = re.search(r"# grains: .*", card(self.folder, "yade")).group(0)
+        self.assertIn(f"rMean={DIAMETER / 2:g}, rRelFuzz=0", equal)
+        text = card(self.folder, "yade", sizes={"kind": "log_normal", "median": "0.4 mm", "sigma": 0.5})
+        lists = [[float(word) for word in found.split(",")] for found in re.findall(r"psd\w+=\[(.*?)\]", text)]
+        sizes, shares = lists
+        self.assertEqual((len(sizes), len(shares), shares[0], shares[-1]), (10, 10, 0, 1))
+        self.assertTrue(all(a < b for a, b in zip(sizes, sizes[1:])), sizes)
+        self.assertEqual(shares, sorted(shares))
+        # Five classes of a fifth of the mass each, at the quantiles 0.1 … 0.9 of a log-normal.
+        tenth = math.exp(-1.2816 * 0.5)
+        self.assertAlmostEqual((sizes[0] + sizes[1]) / 0.8e-3, tenth, delta=0.01 * tenth)
+        self.assertEqual([shares[1], shares[2]], [0.2, 0.2])
+
     def test_what_lammps_cannot_damp_is_said(self):
         self.assertIn("NOT INCLUDED: the restitution of 0.05 between powder and itself",
                       card(self.folder, "lammps", restitution=0.05))

@@ -243,8 +243,32 @@ def check_vtk(talus, root, shots):
     assert "--vtk" in said, said
 
 
+def heights_of(wall):
+    """Lowest and highest z of a wall's .vtp, which is text."""
+    numbers = re.search(r'NumberOfComponents="3" format="ascii">(.*?)<', wall.read_text(), re.S).group(1).split()
+    heights = [float(word) for word in numbers[2::3]]
+    return min(heights), max(heights)
+
+
+def check_rim(talus, root):
+    """A heap is drawn where it lies: what it shows begins at the rim's top, as in its photograph."""
+    rig = {"kind": "funnel_heap", "plate_diameter": "10 mm", "rim_height": "2 mm", "outlet": "5 mm", "height": "10 mm"}
+    heap = {"name": "heap", "rig": rig, "filling": {"kind": "pour"}, "mass_on_plate": {"value": "150 mg", "sd": "10 mg"}}
+    spec = {"experiments": [heap], "powder": {**CASE["powder"], "mass": "0.4 g"},
+            "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
+            "budget": {"simulations": 2}, "confirm": {"candidates": 0}}
+    (root / "rim.json").write_text(json.dumps(spec))
+    run(talus, "calibrate", root / "rim.json", "--out", root / "rim", "--quiet")
+    run(talus, "export", root / "rim", "--vtk")
+    plate, rim = (heights_of(root / "rim/vtk" / name) for name in ("plate.vtp", "rim.vtp"))
+    assert abs(plate[1] + 2e-3) < 1e-9 and abs(rim[0] + 2e-3) < 1e-9 and abs(rim[1]) < 1e-9, (plate, rim)
+    top = float(re.search(r"HighPoint = \[0.0, 0.0, (.*)\]", (root / "rim/vtk/state.py").read_text()).group(1))
+    assert 0 < top < 4e-3, top
+
+
 with tempfile.TemporaryDirectory(prefix="talus_film_") as scratch:
     check_film(sys.argv[1], pathlib.Path(scratch))
     check_poured_film(sys.argv[1], pathlib.Path(scratch))
     check_vtk(sys.argv[1], pathlib.Path(scratch), pathlib.Path(sys.argv[2]))
+    check_rim(sys.argv[1], pathlib.Path(scratch))
 print("the film plays and ParaView has its state")

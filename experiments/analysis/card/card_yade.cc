@@ -6,27 +6,46 @@
 //            Rmean, so that it takes the same eta for half of our R*: eta = μ_r there.
 //   k_r      krot is a constant [N m/rad]; taken at the typical contact.
 //   γ        pulls with 4πγR*, which for two equal surfaces is ours.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "base/text/joined.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
 namespace {
 
-// makeCloud takes the share of the mass up to each diameter.
+// makeCloud takes the share of the mass up to each diameter, from 0 to 1, and spreads what lies
+// between two of them evenly: each class is a narrow band.
 std::string YadeSizes(const Card& card) {
-  std::string diameters;
-  std::string shares;
-  double sum = 0;
-  for (const CardSize& size : card.sizes) {
-    sum += size.volume_share;
-    const char* comma = diameters.empty() ? "" : ", ";
-    diameters += comma + CardNumber(size.diameter);
-    shares += comma + CardNumber(sum);
+  const std::string call = "# grains: pack.SpherePack().makeCloud(..., ";
+  if (card.sizes.size() == 1) {
+    return call + "rMean=" + CardNumber(card.sizes.front().diameter / 2) + ", rRelFuzz=0)\n";
   }
-  return "# grains: pack.SpherePack().makeCloud(..., psdSizes=[" + diameters + "], psdCumm=[" +
-         shares + "], distributeMass=True)\n";
+  double half_width = 1e-3;  // of a band, in shares of its diameter
+  for (std::size_t i = 1; i < card.sizes.size(); ++i) {
+    const double step = card.sizes[i].diameter / card.sizes[i - 1].diameter - 1;
+    if (step > 0) half_width = std::min(half_width, step / 4);
+  }
+  std::vector<std::string> diameters, shares;
+  double sum = 0;
+  for (std::size_t i = 0; i < card.sizes.size(); ++i) {
+    const double diameter = card.sizes[i].diameter;
+    const bool is_as_before = i > 0 && diameter == card.sizes[i - 1].diameter;
+    if (!is_as_before) {
+      diameters.push_back(CardNumber((1 - half_width) * diameter));
+      shares.push_back(CardNumber(sum));
+      diameters.push_back(CardNumber((1 + half_width) * diameter));
+      shares.emplace_back();
+    }
+    sum += card.sizes[i].volume_share;
+    shares.back() = CardNumber(sum);
+  }
+  return call + "psdSizes=[" + base::Joined(diameters, ", ") + "], psdCumm=[" +
+         base::Joined(shares, ", ") + "], distributeMass=True)\n";
 }
 
 }  // namespace

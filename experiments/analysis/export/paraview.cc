@@ -12,6 +12,7 @@
 #include "base/files/output_folder.h"
 #include "base/json/json_text.h"
 #include "base/text/number_text.h"
+#include "engine/run/state_file.h"
 #include "experiments/analysis/export/wall_mesh.h"
 #include "experiments/campaign/answer/standing_answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
@@ -22,7 +23,8 @@
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_case.h"
-#include "imaging/formats/spheres/sphere_files.h"
+#include "experiments/trials/engines/command_result.h"
+#include "experiments/trials/engines/tube_numbers.h"
 
 namespace talus::analysis {
 namespace {
@@ -159,16 +161,21 @@ fs::path ExportVtk(const VtkExport& request) {
                                    "numbers or images alone"));
   }
   const rigs::Case rig_case = trials::LoadAnyCase(trial / "case.json");
+  const std::vector<base::Sphere> grains = trials::HeapOfTrial(trial);
   double top = 0;
-  for (const base::Sphere& grain : imaging::ReadSpheres(heap)) {
-    top = std::max(top, grain.position.z + grain.radius);
-  }
+  for (const base::Sphere& grain : grains) top = std::max(top, grain.position.z + grain.radius);
   base::ClaimOutputFolder(request.out, "export");
-  base::WriteFileAtomically(request.out / "heap.vtp", base::ReadFile(heap));
+  const auto engine = trials::EngineOfCase(trial / "case.json");
+  const bool is_ours = !engine || !trials::HasLeftHeapVtp(*engine, trial);
+  base::WriteFileAtomically(
+      request.out / "heap.vtp",
+      is_ours ? base::ReadFile(heap) : engine::VtpOf(trials::ParticlesOf(grains), 0));
   std::vector<engine::Wall> walls = WallsOf(rig_case, top);
   std::erase_if(walls, [](const engine::Wall& w) { return MeshOf(w.shape).polygons.empty(); });
   for (const engine::Wall& wall : walls) {
-    base::WriteFileAtomically(request.out / (wall.name + ".vtp"), VtpOf(MeshOf(wall.shape)));
+    WallMesh mesh = MeshOf(wall.shape);
+    for (base::Vec3& point : mesh.points) point.z -= rigs::HeapBase(rig_case);
+    base::WriteFileAtomically(request.out / (wall.name + ".vtp"), VtpOf(mesh));
   }
   const fs::path state = request.out / "state.py";
   base::WriteFileAtomically(state, StateText(request.out, walls, top));

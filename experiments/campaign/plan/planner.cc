@@ -185,13 +185,15 @@ bool Planner::PlanNoise(std::vector<journal::TrialRecord>& planned) {
   return true;
 }
 
-// A proposal whose replicates are not complete yet.
+// A proposal whose replicates are not complete yet. What `talus next` had simulated has none:
+// nobody has proposed it, and the budget knows of no more of it.
 bool Planner::PlanReplicate(std::vector<journal::TrialRecord>& planned) {
   if (spec_.replicates == 1) return false;
   std::map<std::int64_t, std::pair<int, const journal::TrialRecord*>> sets;
   for (const journal::TrialRecord& trial : trials_) {
     if (trial.kind != journal::TrialKind::kDesign && trial.kind != journal::TrialKind::kSearch)
       continue;
+    if (trial.origin == journal::kOriginNext) continue;
     ++sets[trial.set].first;
     sets[trial.set].second = &trial;
   }

@@ -65,18 +65,11 @@ void SetFill(rigs::Case& c, double fill) {
   c.SetMassByFill();
 }
 
-std::optional<double> FillOf(const rigs::Case& c) {
-  if (c.rig.kind != rigs::RigKind::kDrum) return std::nullopt;
-  rigs::DrumOptions full = c.rig.drum;
-  full.fill = 1;
-  return c.powder.mass / (full.GrainVolume() * c.powder.material.density);
-}
-
 // In the order in which they are set: the fill of a drum is what its mass follows from.
 constexpr BulkQuantity kBulk[] = {
     {"mass", base::Dimension::kMass, [](rigs::Case& c, double value) { c.powder.mass = value; },
      [](const rigs::Case& c) { return std::optional(c.powder.mass); }},
-    {"fill", base::Dimension::kNone, SetFill, FillOf},
+    {"fill", base::Dimension::kNone, SetFill, rigs::FillOf},
     {"particle_size", base::Dimension::kNone,
      [](rigs::Case& c, double value) {
        engine::SizeDistribution::Visit(c.powder.sizes, LengthScaler{value});

@@ -66,10 +66,10 @@ void CheckDensities(const MeasuredNumbers& numbers, double grains, const Place& 
 void CheckMasses(const MeasuredNumbers& numbers, double filled, const std::string& filled_by,
                  const Place& place, base::Problems& problems) {
   const auto check = [&](std::string_view key, const auto& mass) {
-    problems.Require(!mass || mass->Value() <= kLooseFill * filled, place(key),
-                     mass ? mass->Value() : 0,
-                     "in kg, is more than the " + base::ShortNumber(filled) + " filled in (" +
-                         filled_by + "); write \"21 mg\" for milligrams");
+    problems.Require(
+        !mass || mass->Value() <= kLooseFill * filled, place(key), mass ? mass->Value() : 0,
+        "in kg, is more than the " + base::ShortNumber(filled) + " filled in (" + filled_by +
+            "); a number without a unit is in kg: write \"21 mg\" for milligrams");
   };
   check("mass_on_plate", numbers.Of<Observable::kMassOnPlate>());
   check("mass_fallen", numbers.Of<Observable::kMassFallen>());

@@ -67,6 +67,13 @@ void Case::SetMassByFill() {
   rig.drum.fill.reset();
 }
 
+std::optional<double> FillOf(const Case& c) {
+  if (c.rig.kind != RigKind::kDrum) return std::nullopt;
+  DrumOptions full = c.rig.drum;
+  full.fill = 1;
+  return c.powder.mass / (full.GrainVolume() * c.powder.material.density);
+}
+
 imaging::Frame ProfileFrameOf(const Case& c) {
   return imaging::StripOf(c.frame.value(), c.rig.camera ? c.rig.camera->num_pictures() : 1);
 }

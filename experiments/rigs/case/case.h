@@ -155,6 +155,9 @@ struct Case {
   void SetDevice(const Device& device);
 };
 
+// What rig.fill would be for the case's mass; nothing where it is no drum.
+std::optional<double> FillOf(const Case& rig_case);
+
 // The silhouettes of its image over 180°: one from the front where the heap is not round.
 inline int NumViewsOf(const Case& rig_case) {
   return IsRoundHeap(rig_case.rig.kind) ? rig_case.num_views : 1;

@@ -51,6 +51,11 @@ std::optional<double> ScaleFactorOf(const Case& there, const Case& here) {
   return ratio * there.coarse_graining.scale_factor;
 }
 
+// Grains of another size would have been poured at another rate, which goes with the true ones.
+bool IsPouredAtItsGrainsRate(const Case& c) {
+  return c.filling.kind == FillingKind::kPour && !c.filling.rate;
+}
+
 }  // namespace
 
 std::string CaseText(const Case& rig_case) {
@@ -80,9 +85,12 @@ std::optional<std::string> RunDifference(const Case& there, const Case& here) {
     const base::JsonChange& first = changes.front();
     return first.path + " is " + first.before + " there and " + first.after + " here";
   }
-  if (!scale_factor || IsNear(*scale_factor, here.coarse_graining.scale_factor)) {
-    return std::nullopt;
+  if (!scale_factor) return std::nullopt;
+  if (IsPouredAtItsGrainsRate(here)) {
+    return "its grains are of another size and came at their own rate, which no filling.rate "
+           "states";
   }
+  if (IsNear(*scale_factor, here.coarse_graining.scale_factor)) return std::nullopt;
   return "its grains are those of scale factor " + base::ShortNumber(*scale_factor, 6) + " here";
 }
 

@@ -91,13 +91,16 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
     const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
     const std::vector<bool> hangs =
         ContactSets(grains, contacts).Hanging({kLeftShelf, kRightShelf}, kLowerFloor);
-    // Both halves are one, seen at |x|.
+    // Both halves are one, seen at |x|. What hangs under a shelf has not fallen, and is no slope.
     std::vector<engine::Particle> above, below;
     for (std::size_t i = 0; i < grains.size(); ++i) {
       engine::Particle p = grains[i];
       p.position.x = std::abs(p.position.x);
-      const bool has_fallen = p.position.z < box.height && !hangs[i];
-      (has_fallen ? below : above).push_back(p);
+      if (p.position.z >= box.height) {
+        above.push_back(p);
+      } else if (!hangs[i]) {
+        below.push_back(p);
+      }
     }
     const double passed = MassOf(below);
     std::vector<Reading> all{{Observable::kMassFallen, passed},

@@ -153,6 +153,7 @@ TemplateValues CaseValues(const rigs::Case& c) {
   AddDevice(c, scalars);
   AddPairs(c, scalars);
   rigs::RigOptions::Visit(c.rig, RigValues{scalars, "rig_"});
+  if (const auto fill = rigs::FillOf(c)) scalars["rig_fill"] = base::ExactNumber(*fill);
   values.tables["grains"] = {.columns = {"number", "x", "y", "z", "diameter", "radius"},
                              .rows = {}};
   return values;

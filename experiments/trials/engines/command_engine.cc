@@ -58,11 +58,9 @@ struct Measured {
 
 Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
                         const fs::path& file, const fs::path& folder) {
-  const auto spheres =
-      OnOurPlate(options, imaging::ReadSpheres(file, {.length_unit = options.length_unit}));
+  const auto spheres = ReadOnOurPlate(options, file);
   const bool on_plate = rig_case.rig.kind == rigs::RigKind::kLiftedTube;
-  const double plate =
-      rig_case.frame ? rig_case.frame->plate_diameter : rig_case.rig.lifted_tube.plate_diameter;
+  const double plate = ShownPlate(rig_case);
   if (const auto wrong = on_plate ? WiderThanPlate(spheres, plate) : std::nullopt) {
     throw base::Error("left " + file.filename().string() + " with " + *wrong +
                       "; is engine.length_unit right?");
@@ -71,8 +69,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   if (doubt && doubt->is_unit_slip) {
     throw base::Error("left " + file.filename().string() + " with " + doubt->text);
   }
-  auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
-  for (base::Sphere& sphere : heap) sphere.position.z -= rigs::HeapBase(rig_case);
+  const std::vector<base::Sphere> heap = ShownOf(rig_case, spheres);
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
                       " spheres in " + file.filename().string() +
@@ -294,11 +291,16 @@ bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folde
 
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   // The mark tells a result that is whole from one that a kill has left half written. What the
-  // command took is put into it, where there is room.
+  // command took is put into it, where there is room. 127 is the shell's word for a command that is
+  // not there, which ends the campaign; of one that is there it is a failure as any other.
   const std::string mark = kDone;
   std::vector<std::string> command{
       "/bin/sh", "-c",
-      "\"$@\" || exit; : >" + mark + " || exit; LC_ALL=C; times >>" + mark + " || :", "sh"};
+      "\"$@\" || { s=$?; [ $s = 127 ] && command -v \"$1\" >/dev/null && "
+      "echo 'status 127: something that the command starts is not found' >&2 && s=1; exit $s; }; "
+      ": >" +
+          mark + " || exit; LC_ALL=C; times >>" + mark + " || :",
+      "sh"};
   const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile), nullptr, false);
   for (const auto& argument : filled) {
     if (!argument.is_string()) {
@@ -344,6 +346,12 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
   if (!engines.empty()) {
     return "engine." + engines.front().path + " is " + engines.front().before + " there and " +
            engines.front().after + " here";
+  }
+  rigs::Case heap = made.heap;
+  heap.threads = rig_case.threads;
+  if (auto difference =
+          templates_.Difference(options_, ValuesOf(options_, heap), ValuesOf(options_, rig_case))) {
+    return difference;
   }
   const bool same_frame = made.heap.frame == rig_case.frame;
   if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") {

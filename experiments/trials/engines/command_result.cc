@@ -6,7 +6,10 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/trial_engine.h"
+#include "imaging/formats/spheres/sphere_files.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::trials {
 namespace {
@@ -104,6 +107,11 @@ void RemoveFormer(const fs::path& folder) {
   }
 }
 
+bool HasLeftHeapVtp(const CommandOptions& engine, const fs::path& folder) {
+  const std::vector<fs::path> matches = Matches(engine, folder);
+  return matches.size() == 1 && matches.front().filename() == kOwnHeap;
+}
+
 std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
                                      std::vector<base::Sphere> spheres) {
   for (base::Sphere& sphere : spheres) {
@@ -114,6 +122,28 @@ std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
     if (engine.up == UpAxis::kZ) sphere.position = p;
   }
   return spheres;
+}
+
+std::vector<base::Sphere> ReadOnOurPlate(const CommandOptions& engine, const fs::path& file) {
+  return OnOurPlate(engine, imaging::ReadSpheres(file, {.length_unit = engine.length_unit}));
+}
+
+double ShownPlate(const rigs::Case& rig_case) {
+  return rig_case.frame ? rig_case.frame->plate_diameter : rig_case.rig.lifted_tube.plate_diameter;
+}
+
+std::vector<base::Sphere> ShownOf(const rigs::Case& rig_case, std::vector<base::Sphere> spheres) {
+  if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
+    spheres = imaging::GrainsOnPlate(spheres, ShownPlate(rig_case));
+  }
+  for (base::Sphere& sphere : spheres) sphere.position.z -= rigs::HeapBase(rig_case);
+  return spheres;
+}
+
+std::vector<base::Sphere> HeapOfTrial(const fs::path& folder) {
+  const auto engine = EngineOfCase(folder / "case.json");
+  if (!engine || !HasLeftHeapVtp(*engine, folder)) return imaging::ReadSpheres(folder / kOwnHeap);
+  return ShownOf(LoadAnyCase(folder / "case.json"), ReadOnOurPlate(*engine, folder / kOwnHeap));
 }
 
 }  // namespace talus::trials

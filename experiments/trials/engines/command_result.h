@@ -26,9 +26,27 @@ void RemoveFormer(const std::filesystem::path& folder);
 // Whether a file of this name, relative to the trial's folder, would be taken for the result.
 bool IsResultName(const CommandOptions& engine, const std::filesystem::path& name);
 
+// Whether a trial's heap.vtp is the engine's own file; it is ours where the result is another.
+bool HasLeftHeapVtp(const CommandOptions& engine, const std::filesystem::path& folder);
+
 // Turned so that up is z, and moved so that the plate's centre is the origin.
 std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
                                      std::vector<base::Sphere> spheres);
+
+// The spheres of a file that the engine has left, so turned and moved [m].
+std::vector<base::Sphere> ReadOnOurPlate(const CommandOptions& engine,
+                                         const std::filesystem::path& file);
+
+// Those of them that its image shows: what lies on a lifted tube's plate, from the base of the heap
+// upwards.
+std::vector<base::Sphere> ShownOf(const rigs::Case& rig_case, std::vector<base::Sphere> spheres);
+
+// The diameter of the plate that its image shows [m].
+double ShownPlate(const rigs::Case& rig_case);
+
+// The heap of a trial's heap.vtp, whichever engine has left it, as its image shows it [m]. Throws
+// base::Error, or a ConfigError of its case.json, where one of them cannot be read.
+std::vector<base::Sphere> HeapOfTrial(const std::filesystem::path& folder);
 
 // Whether "heap_9" comes before "heap_10".
 bool NaturalLess(const std::string& a, const std::string& b);

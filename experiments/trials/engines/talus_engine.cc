@@ -67,6 +67,9 @@ void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   if (!rig_case.rig.camera) DrawHeap(rig_case, folder, result);
+  if (const auto conditions = result.find("conditions"); conditions != result.end()) {
+    (*conditions)["scale_factor"] = rig_case.coarse_graining.scale_factor;
+  }
   result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
   base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));
   base::WriteFileAtomically(folder / "result.json",

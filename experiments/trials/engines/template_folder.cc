@@ -1,6 +1,8 @@
 #include "experiments/trials/engines/template_folder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -14,9 +16,10 @@ namespace fs = std::filesystem;
 
 // Names in a file of a trial's folder that a template may not have.
 bool IsReserved(const fs::path& path) {
-  static constexpr std::string_view kOwn[] = {
-      "case.json",     "result.json",   "log.txt",        "trial.json", "profile.png",
-      ".command.json", ".command_done", ".process_group", ".slurm_end", ".slurm_end.part"};
+  static constexpr std::string_view kOwn[] = {"case.json",     "result.json",    "log.txt",
+                                              "trial.json",    "profile.png",    "heap.vtp",
+                                              ".command.json", ".command_done",  ".process_group",
+                                              ".slurm_end",    ".slurm_end.part"};
   return std::find(std::begin(kOwn), std::end(kOwn), path.string()) != std::end(kOwn);
 }
 
@@ -100,6 +103,21 @@ bool TemplateFolder::Uses(const CommandOptions& engine, const std::string& name)
   return std::any_of(files_.begin(), files_.end(),
                      [&](const File& file) { return file.text && uses(*file.text); }) ||
          std::any_of(parts.begin(), parts.end(), uses);
+}
+
+std::optional<std::string> TemplateFolder::Difference(const CommandOptions& engine,
+                                                      const TemplateValues& there,
+                                                      const TemplateValues& here) const {
+  constexpr double kRounding = 1e-9;  // of lengths that come of another size and scale factor
+  for (const auto& [name, value] : here.scalars) {
+    const auto before = there.scalars.find(name);
+    if (before == there.scalars.end() || before->second == value || !Uses(engine, name)) continue;
+    const double a = std::strtod(before->second.c_str(), nullptr);  // a name is another one
+    const double b = std::strtod(value.c_str(), nullptr);
+    if (b != 0 && std::abs(a - b) <= kRounding * std::abs(b)) continue;
+    return "{{ " + name + " }} was " + before->second + " there and is " + value + " here";
+  }
+  return std::nullopt;
 }
 
 std::string TemplateFolder::Hash() const {

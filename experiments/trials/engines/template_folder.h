@@ -26,6 +26,10 @@ class TemplateFolder {
   // Whether a value or table is used anywhere.
   bool Uses(const CommandOptions& engine, const std::string& name) const;
 
+  // The first value that is used and differs by more than rounding, in words.
+  std::optional<std::string> Difference(const CommandOptions& engine, const TemplateValues& there,
+                                        const TemplateValues& here) const;
+
   // The hash of names and contents; 16 hexadecimal digits.
   std::string Hash() const;
 

@@ -31,18 +31,17 @@ std::vector<engine::Particle> ParticlesOf(const std::vector<base::Sphere>& spher
 
 std::vector<journal::MetricRecord> TubeNumbersOf(const rigs::Case& rig_case, double plate,
                                                  const std::vector<base::Sphere>& heap) {
-  double volume = 0, height = 0, diameters = 0;
+  double volume = 0, height = 0;
   for (const base::Sphere& s : heap) {
     volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
     height = std::max(height, s.position.z + s.radius);
-    diameters += 2 * s.radius;
   }
   const double on_plate = volume * rig_case.powder.material.density;
   const double fallen = std::max(0.0, rig_case.powder.mass - on_plate);
   std::vector<journal::MetricRecord> numbers{RecordOf({rigs::Observable::kMassOnPlate, on_plate}),
                                              RecordOf({rigs::Observable::kMassFallen, fallen}),
                                              RecordOf({rigs::Observable::kHeight, height})};
-  const double mean = diameters / static_cast<double>(heap.size());
+  const double mean = rigs::EstimatePowder(rig_case).mean_diameter;  // as our own rig takes it
   for (const rigs::Reading& reading :
        rigs::ReposeReadings(ParticlesOf(heap), {.diameter = plate, .grain_diameter = mean})) {
     numbers.push_back(RecordOf(reading));

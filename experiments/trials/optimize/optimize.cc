@@ -46,7 +46,7 @@ class OptimizeLoop {
       EvaluateAndTell(batch);
       stopped = WhyStop(batch.empty());
     }
-    if (tally_.num_failed == num_told() && num_told() > 0) AllFailed();
+    if (!interrupted_ && num_told() > 0 && tally_.num_failed == num_told()) AllFailed();
     const std::string result =
         base::JsonText(OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped), 2) + "\n";
     if (folder_) folder_->WriteResult(result);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <ranges>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -28,9 +30,9 @@ constexpr const char* kOne = R"(, "coarse_graining": {"scale_factors": [2, 1]},
 class AddExperimentTest : public CampaignFixture {
  protected:
   // A campaign with one experiment that has ended.
-  fs::path Ended() const {
-    WriteFakeSpec(scratch_.path() / "run_in", kOne);
-    return Finished(kOne);
+  fs::path Ended(const std::string& extra = "") const {
+    WriteFakeSpec(scratch_.path() / "run_in", kOne + extra);
+    return Finished(kOne + extra);
   }
   static CampaignSpec LoadSpec(const fs::path& folder) {
     return ParseSpecText(
@@ -45,6 +47,25 @@ class AddExperimentTest : public CampaignFixture {
   static void Add(const fs::path& folder, const fs::path& file, const AddOptions& options = {}) {
     Console console(folder / "campaign.log", Console::Output::kQuiet);
     AddExperiment(folder, file, options, console);
+  }
+  // `talus next` simulates the design of a lifted tube that is drawn up so fast.
+  void SimulateNext(const fs::path& folder, const std::string& velocity) const {
+    const fs::path candidates = scratch_.path() / "candidates.json";
+    std::string name = "lift " + velocity;
+    std::replace(name.begin(), name.end(), '/', ' ');  // a name has no slash
+    std::ofstream(candidates) << R"({"candidates": [{"name": ")" << name
+                              << R"(", "device": {"lift_velocity": ")" << velocity << R"("}}]})";
+    const JointView view = ReadJointView(folder);
+    analysis::RankNext(view,
+                       {.tests = analysis::LoadTests(candidates),
+                        .simulate = true,
+                        .parts = {.runner = MakeDrawnRunner(LoadSpec(folder), folder),
+                                  .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})}});
+  }
+  void AddFastLift(const fs::path& folder) const {
+    Add(folder, Write(TwoExperiments::FastLift("23 mg")),
+        {.core_time = {},
+         .engine = [] { return std::make_unique<FakeEngine>(FakeEngineOptions{}); }});
   }
   static int Count(const fs::path& folder, int experiment) {
     const auto trials = Trials(folder);
@@ -140,24 +161,9 @@ TEST_F(AddExperimentTest, ACampaignThatHasEndedWithItDoesNotSearchOnByItself) {
 TEST_F(AddExperimentTest, WhatNextHasSimulatedOfTheTestIsTakenOver) {
   const fs::path folder = Ended();
   const auto before = Trials(folder);
-  const auto parts = [&] {
-    return CampaignParts{.runner = MakeDrawnRunner(LoadSpec(folder), folder),
-                         .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
-  };
-  const std::string fast_lift = TwoExperiments::FastLift("23 mg");
-  for (const char* velocity : {"0.1 m/s", "20 cm/s"}) {  // the first is another test
-    const fs::path candidates = scratch_.path() / "candidates.json";
-    std::string name = std::string("lift ") + velocity;
-    std::replace(name.begin(), name.end(), '/', ' ');  // a name has no slash
-    std::ofstream(candidates) << R"({"candidates": [{"name": ")" << name
-                              << R"(", "device": {"lift_velocity": ")" << velocity << R"("}}]})";
-    const JointView view = ReadJointView(folder);
-    analysis::RankNext(
-        view, {.tests = analysis::LoadTests(candidates), .simulate = true, .parts = parts()});
-  }
-  Add(folder, Write(fast_lift), {.core_time = {}, .engine = [] {
-                                   return std::make_unique<FakeEngine>(FakeEngineOptions{});
-                                 }});
+  SimulateNext(folder, "0.1 m/s");  // another test
+  SimulateNext(folder, "20 cm/s");
+  AddFastLift(folder);
   const auto taken = Trials(folder);
   ASSERT_EQ(taken.size(), before.size() + 16);
   const std::string drawn = base::ReadFile(folder / "next/lift-20-cm-s/trials/0003/profile.png");
@@ -175,6 +181,22 @@ TEST_F(AddExperimentTest, WhatNextHasSimulatedOfTheTestIsTakenOver) {
     EXPECT_NE(after[i].kind, journal::TrialKind::kDesign);
   }
   EXPECT_EQ(Result(folder).posterior.value().experiments.size(), 2u);
+}
+
+TEST_F(AddExperimentTest, WhatIsTakenOverGetsNoReplicates) {
+  const fs::path folder = Ended(R"(, "replicates": 2)");
+  const std::size_t num_before = Trials(folder).size();
+  SimulateNext(folder, "20 cm/s");
+  AddFastLift(folder);
+  const std::size_t num_taken = Trials(folder).size() - num_before;
+  ASSERT_EQ(num_taken, 16u);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  std::map<std::int64_t, int> members;
+  for (const journal::TrialRecord& trial : Trials(folder)) {
+    if (trial.experiment == 1 && IsOfSearch(trial)) ++members[trial.set];
+  }
+  EXPECT_EQ(std::ranges::count(std::views::values(members), 1), 16);
+  EXPECT_EQ(std::ranges::count_if(std::views::values(members), [](int num) { return num > 2; }), 0);
 }
 
 TEST_F(AddExperimentTest, ItIsStillThereInAJournalThatIsMadeAnew) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "experiments/rigs/case/case_text.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
@@ -231,6 +232,18 @@ TEST_F(ReuseTest, GrainsOfAnotherSizeAreThoseOfAnotherScaleFactor) {
   for (const auto& trial : Reused(folder)) EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
   EXPECT_THAT(ErrorOf(finer(R"("scale_factors": [3, 1.5])"), {former}),
               HasSubstr("its grains are those of scale factor"));
+}
+
+TEST(RunDifference, GrainsOfAnotherSizeWerePouredAtAnotherRateUnlessOneIsStated) {
+  rigs::Case there;
+  there.powder.sizes.diameter = 1e-3;
+  there.filling.kind = rigs::FillingKind::kPour;
+  rigs::Case here = there;
+  here.powder.sizes.diameter = 0.5e-3;
+  here.coarse_graining.scale_factor = 2;
+  EXPECT_THAT(rigs::RunDifference(there, here).value_or(""), HasSubstr("at their own rate"));
+  there.filling.rate = here.filling.rate = 1e-3;
+  EXPECT_EQ(rigs::RunDifference(there, here), std::nullopt);
 }
 
 // The others choose their first sets by what they have been told, and would leave them out.

@@ -58,6 +58,7 @@ TEST_F(CommandEngineTest, AngleAndHeightOfAHeapFollowFromItsSpheres) {
       if (sqrt(i * i + j * j) + k <= 19) print i * s "," j * s "," (k + 0.5) * s "," s / 2 }' >heap.csv
 )sh");
   rigs::Case heap = SmallCase();
+  heap.powder.sizes.diameter = 2.5e-4;
   heap.frame.reset();
   SimulateCommandCase({.heap = heap, .engine = options_},
                       {.folder = root_ / "trial", .quiet = true});
@@ -104,7 +105,7 @@ TEST_F(CommandEngineTest, ACohesionMayBeBelowZeroAndNotANumberIsSaid) {
 TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   rigs::Case drum = SmallCase();
   drum.rig.kind = rigs::RigKind::kDrum;
-  drum.rig.drum = {.diameter = 0.02, .width = 0.01, .speed = 2};
+  drum.rig.drum = {.diameter = 0.02, .width = 0.01, .speed = 2, .fill = 0.3};
   drum.frame.reset();
   const auto scalars_of = [&] {
     CommandEngine engine(options_);
@@ -113,10 +114,13 @@ TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
                         {.folder = root_ / "trial", .quiet = true});
     return engine.Collect(drum, root_ / "trial").scalars;
   };
-  Deck("run.sh", R"(echo '{"angle_deg": {{ rig_speed }}5, "angle_sd_deg": null}' >scalars.json)");
+  drum.SetMassByFill();
+  Deck("run.sh", R"(echo '{"angle_deg": {{ rig_speed }}5, "angle_sd_deg": null}' >scalars.json
+    echo {{ rig_fill }} >../fill)");
   const auto json = scalars_of();
   ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(json[0].value, 25);
+  EXPECT_NEAR(std::stod(Text("fill")), 0.3, 1e-12);
   EXPECT_EQ(json[0].unit, "deg");
   EXPECT_THAT(json[1].undefined, HasSubstr("gives no value"));
   Deck("run.sh", "printf 'name,value\\nangle_deg, 31.5\\nnum_avalanches,4\\n' >scalars.csv");

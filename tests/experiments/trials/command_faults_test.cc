@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "base/json/json_file.h"
 #include "base/text/number_text.h"
+#include "engine/run/state_file.h"
 #include "experiments/trials/engines/command_case.h"
+#include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/simulate/run_lock.h"
 #include "tests/experiments/command_fixture.h"
@@ -17,6 +19,7 @@
 namespace talus::trials {
 namespace command_faults_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using CommandFaultsTest = CommandFixture;
 
@@ -134,6 +137,61 @@ TEST_F(CommandFaultsTest, GrainsThatAreNotTheSpecsAreSaidAndAUnitSlipFails) {
   EXPECT_THAT(output_of(0.5e-3, 100), HasSubstr("does the deck take {{ num_grains }}"));
   EXPECT_THAT(FailureOf([&] { output_of(0.5e-4, 3); }),
               HasSubstr("1/10 of that; is engine.length_unit right"));
+}
+
+// Status 127 of the shell ends a campaign, which one set with a broken branch in the deck must not.
+TEST_F(CommandFaultsTest, OnlyACommandThatIsNotThereEndsWithThatStatus) {
+  const auto status_of = [&](const std::string& command) {
+    options_.command = {"sh", "run.sh"};
+    Deck("run.sh", command);
+    return FailureOf();
+  };
+  EXPECT_THAT(
+      status_of("no_such_solver -in deck\n"),
+      AllOf(HasSubstr("exit status 1; its log ends with: "), HasSubstr("status 127: something")));
+  fs::remove_all(root_ / "trial");
+  EXPECT_THAT(status_of("exit 5\n"), HasSubstr("exit status 5"));
+}
+
+// Sizes of one shape are another scale factor, but a deck may have taken the factor itself.
+TEST_F(CommandFaultsTest, ATrialIsTakenOverOnlyWhereTheDeckHasTheSameValues) {
+  const std::string result = "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n";
+  const auto why_not = [&](const std::string& line) {
+    fs::remove_all(root_ / "trial");
+    Deck("run.sh", line + result);
+    Run();
+    rigs::Case finer = SmallCase();
+    finer.powder.sizes.diameter = 0.5e-3;
+    finer.coarse_graining.scale_factor = 2;
+    return CommandEngine(options_).WhyNotTaken(finer, root_ / "trial").value_or("taken");
+  };
+  EXPECT_EQ(why_not("echo {{ mean_diameter }} {{ num_grains }}\n"), "taken");
+  EXPECT_EQ(why_not("echo {{ scale_factor }}\n"), "{{ scale_factor }} was 1 there and is 2 here");
+}
+
+// As the engine left it: in another unit, turned, beside its plate.
+TEST_F(CommandFaultsTest, AHeapThatTheEngineLeftAsVtpIsReadOntoOurPlate) {
+  options_.result = "heap.vtp";
+  options_.length_unit = 1e-3;
+  options_.up = UpAxis::kY;
+  options_.plate_center = {0, 0.01, 0};
+  std::vector<engine::Particle> left(1);
+  left[0].position = {0, 10.5, 0};
+  left[0].radius = 0.5;
+  std::string vtp = engine::VtpOf(left, 0);  // whose own name says that it is in metres
+  vtp.replace(vtp.find("Name=\"diameter_m\""), 17, "Name=\"Diameter\"");
+  std::ofstream(root_ / "left.vtp", std::ios::binary) << vtp;
+  Deck("run.sh", "cp ../left.vtp heap.vtp\n");
+  Run();
+  const auto heap = HeapOfTrial(root_ / "trial");
+  ASSERT_EQ(heap.size(), 1u);
+  EXPECT_NEAR(heap[0].radius, 0.5e-3, 1e-9);
+  EXPECT_NEAR(heap[0].position.z, 0.5e-3, 1e-9);
+  options_.result = "heap.csv";  // beside which ours is as its image shows it
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", "printf 'x,y,z,r\\n0,10.5,0,0.5\\n' >heap.csv\n");
+  Run();
+  EXPECT_NEAR(HeapOfTrial(root_ / "trial").at(0).position.z, 0.5e-3, 1e-9);
 }
 
 // A code's own "no value" was taken for one.

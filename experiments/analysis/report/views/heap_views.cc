@@ -7,8 +7,8 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/trials/engines/command_result.h"
 #include "imaging/formats/images/photograph_file.h"
-#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
 #include "imaging/spheres/projection.h"
@@ -22,10 +22,10 @@ constexpr std::size_t kMostViews = 4;  // of a heap's photographs
 
 // The grains of a trial; none where the folder or the file is gone, or it is damaged.
 std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial, LeftOut& left_out) {
-  const auto file = campaign::CampaignFolder{evidence.folder}.trial(trial) / "heap.vtp";
+  const auto folder = campaign::CampaignFolder{evidence.folder}.trial(trial);
   std::error_code absent;
-  if (evidence.folder.empty() || !std::filesystem::exists(file, absent)) return {};
-  return ReadExtra(left_out, [&] { return imaging::ReadSpheres(file); });
+  if (evidence.folder.empty() || !std::filesystem::exists(folder / "heap.vtp", absent)) return {};
+  return ReadExtra(left_out, [&] { return trials::HeapOfTrial(folder); });
 }
 
 Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& values) {
