@@ -43,6 +43,7 @@ def check_campaign(root):
     assert campaign.result["parameters"][0]["name"] == "sliding_friction"
     assert campaign.spec["budget"]["simulations"] == 4
     check_spec(campaign)
+    check_spec_of_a_drum(campaign.folder.parent)
     check_profiles(campaign)
     check_program(campaign)
     check_warnings(campaign)
@@ -161,6 +162,19 @@ def check_spec(campaign):
     # Their mean; their sd, 0.1 mm, over the square root of 3, by the two degrees that three heaps leave.
     assert abs(float(measured) - 2.1e-3) < 1e-12 and abs(measured.attrs["standard_error"] - 1e-4 / 3**.5) < 1e-12
     assert measured.attrs["degrees_of_freedom"] == 2, measured.attrs
+
+
+def check_spec_of_a_drum(root):
+    """A drum's mass only follows from its fill, and a spec has one of the two."""
+    drum = {"name": "drum", "rig": {"kind": "drum", "diameter": "20 mm", "width": "8 mm", "speed": "60 rpm", "fill": 0.3,
+                                    "start_turns": 0.2, "turns": 0.2}, "angle": {"value": "30 deg", "sd": "1 deg"}}
+    material = {"density": 2500, "youngs_modulus": "5 MPa", "restitution": 0.5, "rolling_friction": 0.1}
+    spec = {"experiments": [drum], "powder": {"material": material, "sizes": {"kind": "mono", "diameter": "1.5 mm"}},
+            "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}}, "budget": {"simulations": 1},
+            "confirm": {"candidates": 0}, "next": {"share": 0}}
+    again = talus.calibrate(spec, out=root / "drum", progress=False).spec
+    again["seed"] = 8
+    assert len(talus.calibrate(again, out=root / "drum_again", progress=False).trials()) == 1
 
 
 def check_program(campaign):
