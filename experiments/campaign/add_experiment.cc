@@ -53,8 +53,8 @@ void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
 void Write(OpenedCampaign& opened, const journal::CampaignRecord& record, const TakenOver& taken) {
   const journal::ExperimentRecord& experiment = record.experiments.back();
   KeepCampaign(opened.folder, record);
-  Reopen(opened.journal);
   opened.journal.AddExperiment(experiment, record.spec_json, taken.trials);
+  std::filesystem::remove(opened.folder.progress());
   opened.journal.AddEvent("experiment", 0, "\"" + experiment.name + "\" is added");
   if (taken.trials.empty()) return;
   opened.journal.AddEvent("experiment", 0, TakenOverText(taken));

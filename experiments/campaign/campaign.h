@@ -17,6 +17,7 @@
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/console.h"
+#include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/goal_judge.h"
 #include "experiments/campaign/plan/planner.h"
 #include "experiments/campaign/record/reference.h"
@@ -63,6 +64,7 @@ class Campaign {
 
   CampaignEnd GoOn(const base::InterruptGuard& interrupt);
   bool StayEnded();
+  KeptProgress ProgressSoFar() const;
   void RunFailedAgain();
   void TellFinished();
   void TakeUpRunning();

@@ -62,7 +62,13 @@ void Campaign::RunFailedAgain() {
 // Trials become known by their ids, observations are told in the order in which they finished.
 void Campaign::TellFinished() {
   const std::vector<journal::TrialRecord> trials = journal_.Trials();
-  for (const journal::TrialRecord& trial : trials) planner_.Started(trial);
+  for (journal::TrialRecord trial : trials) {  // as they were known when they were started
+    if (trial.finish_order > 0) {
+      trial.status = journal::TrialStatus::kRunning;
+      trial.metrics.clear();
+    }
+    planner_.Started(trial);
+  }
   for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
     planner_.Finished(trial, StoredField(journal_, folder_, references_, trial));
     NoteBest(trial);

@@ -18,8 +18,8 @@
 
 namespace talus::campaign {
 
-// A search that has ended stays so until something is asked of it (Reopen). Its budget may have
-// room again: trials that still ran when it ended counted by an estimate.
+// A search that has ended stays so until something is asked of it (ReopenSearch). Its budget may
+// have room again: trials that still ran when it ended counted by an estimate.
 bool Campaign::StayEnded() {
   const journal::ProgressRecord before = journal_.Progress();
   stop_json_ = before.stop_json;
@@ -45,6 +45,17 @@ void Campaign::NoteStop(const std::vector<journal::TrialRecord>& planned) {
   if (stop->kind != StopKind::kRule && stop->kind != StopKind::kUndefined && !confirms) return;
   stop_json_ = base::JsonTextWriter::TextOf(*stop);
   NoteProgress();
+  KeepProgress(folder_, ProgressSoFar());
+}
+
+KeptProgress Campaign::ProgressSoFar() const {
+  const std::optional<Stop>& stop = planner_.stop();
+  const bool has_ended = running_.empty() && waiting_.empty() && stop;
+  return {.elapsed_s = Elapsed(),
+          .num_of_search = static_cast<int>(std::ranges::count_if(planner_.trials(), IsOfSearch)),
+          .stop_json = has_ended && stop->kind != StopKind::kAllFailed
+                           ? base::JsonTextWriter::TextOf(*stop)
+                           : stop_json_};
 }
 
 // A result is that of the search as far as it had come: while this goes on there is none.
@@ -101,6 +112,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
     if (result_) WriteResult(progress);
   }
   journal_.SetProgress(progress);
+  KeepProgress(folder_, ProgressSoFar());
   journal_.AddEvent("stop", 0, progress.stop_reason);
   if (!finished) return CampaignEnd::kInterrupted;
   if (result_) return CampaignEnd::kFinished;

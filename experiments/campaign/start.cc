@@ -174,7 +174,7 @@ void WriteSpec(const CampaignFolder& folder, const SpecChange& change, journal::
   record.spec_text = change.text;
   record.spec_json = SpecText(change.spec);
   KeepCampaign(folder, record);
-  journal.SetSpec(record);
+  journal.SetSpec(record, change.SearchesOn());
 }
 
 }  // namespace
@@ -241,16 +241,6 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
   for (const std::string& message : plan.messages) options.say(message);
 }
 
-void Reopen(journal::Journal& journal) {
-  journal::ProgressRecord progress = journal.Progress();
-  progress.stop_json.clear();
-  if (progress.state == "finished") {
-    progress.state = "interrupted";
-    progress.stop_reason = "it is to go on";
-  }
-  journal.SetProgress(progress);
-}
-
 OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, Console& console,
                             const std::function<void(const CampaignSpec&)>& check) {
   const CampaignFolder folder{fs::absolute(root)};
@@ -274,12 +264,14 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   MakeEngine(spec);            // and for templates that are not those it began with
   check(spec);
   if (change.engine_is_new) base::WriteFileAtomically(folder.mended(), change.words + "\n");
-  // First: a search that stayed ended beside its changed spec would never go on.
-  if (change.SearchesOn() || options.objective) Reopen(journal);
+  // A search is open again together with what it goes on by: one that ends in between, or finds the
+  // disk full, is as it was.
   if (!options.search.empty()) {
     WriteAddedParameters(folder, change.spec, change.text, journal);
   }
   if (!change.event.empty() || !change.path.empty()) WriteSpec(folder, change, journal);
+  if (options.objective && !change.SearchesOn()) journal.ReopenSearch();
+  if (options.objective || change.SearchesOn()) fs::remove(folder.progress());
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }

@@ -57,7 +57,4 @@ OpenedCampaign OpenCampaign(
     const std::filesystem::path& folder, const ResumeOptions& options, Console& console,
     const std::function<void(const CampaignSpec&)>& check = [](const CampaignSpec&) {});
 
-// A campaign that has ended is to go on: something was asked of it since.
-void Reopen(journal::Journal& journal);
-
 }  // namespace talus::campaign

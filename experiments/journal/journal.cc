@@ -60,6 +60,10 @@ void RefuseForeignFile(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void RefuseFolder(const std::filesystem::path& campaign) {
+  if (std::filesystem::exists(campaign / "campaign.json")) {
+    throw base::Error(campaign.string() +
+                      ": its journal is not there; `talus resume` makes it anew from the trials");
+  }
   const bool is_folder = std::filesystem::is_directory(campaign);
   throw base::ConfigError(campaign.string() +
                           (is_folder ? ": holds no campaign (journal.sqlite is missing)"

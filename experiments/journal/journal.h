@@ -38,13 +38,15 @@ class Journal {
   CampaignRecord Campaign();
   ProgressRecord Progress();
   void SetProgress(const ProgressRecord& progress);
-  // The spec after an allowed change: its path and its texts.
-  void SetSpec(const CampaignRecord& campaign);
+  // A search that has ended is one that was interrupted, and goes on when the campaign does.
+  void ReopenSearch();
+  // The spec after an allowed change: its path and its texts; with ReopenSearch if asked for.
+  void SetSpec(const CampaignRecord& campaign, bool reopens = false);
   // Other parameters than it began with, and for each of `trials`, which are all of them, its
-  // point; together with the spec's texts. There is no result any more.
+  // point; together with the spec's texts and ReopenSearch. There is no result any more.
   void SetParameters(const CampaignRecord& campaign, std::span<const TrialRecord> trials);
-  // A further one, after the others, together with the spec that has it and with the trials that it
-  // takes over, as running.
+  // A further one, after the others, together with the spec that has it, with the trials that it
+  // takes over, as running, and with ReopenSearch.
   void AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json,
                      std::span<const TrialRecord> trials);
 
@@ -72,6 +74,7 @@ class Journal {
 
  private:
   explicit Journal(Database database) : database_(std::move(database)) {}
+  void SetOpen();  // ReopenSearch, in a transaction of the caller's
   void CreateView(const CampaignRecord& campaign);
   void InsertCampaign(const CampaignRecord& campaign);
   void InsertParameters(const CampaignRecord& campaign);

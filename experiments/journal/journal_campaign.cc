@@ -60,6 +60,7 @@ void Journal::SetParameters(const CampaignRecord& campaign, std::span<const Tria
   database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2, result_json = ''")
       .Bind(campaign.spec_text, campaign.spec_json)
       .Finish();
+  SetOpen();
   SealAll(database_);
   transaction.Commit();
 }
@@ -124,11 +125,26 @@ void Journal::SetProgress(const ProgressRecord& progress) {
   transaction.Commit();
 }
 
-void Journal::SetSpec(const CampaignRecord& campaign) {
+void Journal::SetOpen() {
+  database_.Execute(
+      "UPDATE campaign SET stop_json = ''; "
+      "UPDATE campaign SET state = 'interrupted', stop_reason = 'it is to go on' "
+      "WHERE state = 'finished'");
+}
+
+void Journal::ReopenSearch() {
+  Transaction transaction(database_);
+  SetOpen();
+  SealCampaign(database_);
+  transaction.Commit();
+}
+
+void Journal::SetSpec(const CampaignRecord& campaign, bool reopens) {
   Transaction transaction(database_);
   database_.Prepare("UPDATE campaign SET spec_path = ?1, spec_text = ?2, spec_json = ?3")
       .Bind(campaign.spec_path, campaign.spec_text, campaign.spec_json)
       .Finish();
+  if (reopens) SetOpen();
   SealCampaign(database_);
   transaction.Commit();
 }
@@ -139,6 +155,7 @@ void Journal::AddExperiment(const ExperimentRecord& experiment, std::string_view
   InsertExperiment(database_, database_.Number("SELECT count(*) FROM experiments"), experiment);
   database_.Prepare("UPDATE campaign SET spec_json = ?1").Bind(spec_json).Finish();
   for (const TrialRecord& trial : trials) Insert(trial);
+  SetOpen();
   SealCampaign(database_);
   transaction.Commit();
 }

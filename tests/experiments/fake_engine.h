@@ -21,6 +21,7 @@ struct FakeEngineOptions {
   bool fail_at_low = false;           // no heap below μ_t = 0.3
   bool fail_fast_at_low = false;      // the same, where the tube is lifted fast
   bool fail_once = false;             // every trial's first seed fails
+  int fail_first = 0;                 // so many trials fail
   bool seed_in_reason = false;        // every trial fails, and quotes its seed in two lines
   bool film_grows = false;            // the pictures of a film are not all the same
   double sleep = 0;                   // of each trial [s]
@@ -73,6 +74,7 @@ class FakeEngine : public trials::TrialEngine {
     const bool fails = options_.fail_at_low || (options_.fail_fast_at_low &&
                                                 rig_case.rig.lifted_tube.lift_velocity > kFast);
     if (fails && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
+    if (std::stoi(folder.filename()) <= options_.fail_first) script += "exit 5\n";
     if (options_.seed_in_reason)
       script += "echo seed " + std::to_string(seed) + "; echo lost atoms; exit 4\n";
     const auto marker = folder.parent_path() / (folder.filename().string() + "_failed");

@@ -14,6 +14,7 @@ struct CampaignFolder {
   std::filesystem::path result() const { return root / "result.json"; }
   std::filesystem::path posterior() const { return root / "posterior.csv"; }
   std::filesystem::path campaign() const { return root / "campaign.json"; }
+  std::filesystem::path progress() const { return root / "progress.json"; }  // repair.h
   // There from when a deck is mended (mended_engine.h) until nothing runs with the former one.
   std::filesystem::path mended() const { return root / "mended"; }
   // The folder of an experiment's images, from 0: the root itself for the first.

@@ -86,10 +86,29 @@ std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
     // empty one is all that a power cut has left.
     std::error_code absent;
     const auto size = std::filesystem::file_size(file, absent);
-    if (!absent && size > 0) trials.push_back(ReadRecord<journal::TrialRecord>(file));
+    if (absent || size == 0) continue;
+    try {
+      trials.push_back(ReadRecord<journal::TrialRecord>(file));
+    } catch (const base::Error&) {  // damaged: as if it were not there, it is run again
+    }
   }
   std::sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return trials;
+}
+
+// Where more trials of the search were started since, it has gone on.
+journal::ProgressRecord KeptProgressOf(const CampaignFolder& folder,
+                                       const std::vector<journal::TrialRecord>& trials) {
+  if (!std::filesystem::exists(folder.progress())) return {};
+  try {
+    const auto kept = ReadRecord<KeptProgress>(folder.progress());
+    const auto num_of_search = std::ranges::count_if(
+        trials, [](const auto& trial) { return trial.kind != journal::TrialKind::kConfirm; });
+    return {.elapsed_s = kept.elapsed_s,
+            .stop_json = num_of_search == kept.num_of_search ? kept.stop_json : ""};
+  } catch (const base::Error&) {
+    return {};  // it only spares work
+  }
 }
 
 }  // namespace
@@ -115,6 +134,10 @@ void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) 
                             base::Outlives::kProgram);
 }
 
+void KeepProgress(const CampaignFolder& folder, const KeptProgress& progress) {
+  base::WriteFileAtomically(folder.progress(), TextWithChecksum(progress));
+}
+
 journal::Journal RebuildJournal(const CampaignFolder& folder) {
   const journal::CampaignRecord record = KeptCampaign(folder);
   std::vector<journal::TrialRecord> trials = KeptTrials(folder);
@@ -125,6 +148,7 @@ journal::Journal RebuildJournal(const CampaignFolder& folder) {
   PutAside(journal::JournalPath(folder.root));
   journal::Journal journal =
       journal::Journal::Create(journal::JournalPath(folder.root), record, trials);
+  journal.SetProgress(KeptProgressOf(folder, trials));
   journal.AddEvent("repair", 0,
                    "the journal was damaged and has been made anew from the trials' folders");
   return journal;

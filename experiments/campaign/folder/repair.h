@@ -13,6 +13,18 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
 // trials/0001/trial.json: why there is such a trial.
 void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial);
 
+// What the trials do not tell of how far a search has come.
+struct KeptProgress {
+  double elapsed_s = 0;     // as ProgressRecord's
+  int num_of_search = 0;    // trials that it had started then
+  std::string stop_json{};  // why it has ended; "" while it goes on
+
+  TALUS_FIELDS(elapsed_s, num_of_search, stop_json);
+};
+
+// progress.json.
+void KeepProgress(const CampaignFolder& folder, const KeptProgress& progress);
+
 // Puts the damaged journal aside and makes a new one in which every trial that was ever started is
 // running: those that have ended are then collected from their folders, the others run again.
 // Throws base::Error when the folder does not hold enough for it.

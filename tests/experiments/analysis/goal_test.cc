@@ -64,7 +64,7 @@ class GoalTest : public campaign::CampaignFixture {
   static void Reopen(const fs::path& folder) {
     campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
     campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
-    campaign::Reopen(opened.journal);
+    opened.journal.ReopenSearch();
     fs::remove(folder / "result.json");
   }
   static std::optional<GoalState> Last(const fs::path& folder) {

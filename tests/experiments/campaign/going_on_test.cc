@@ -198,6 +198,70 @@ TEST_F(GoingOnTest, ASearchThatIsBeingConfirmedDoesNotGoOnByItself) {
   EXPECT_EQ(Trials(folder).size(), num_trials);
 }
 
+// A full disk, say: the search was open again by then, under the budget that it had not used.
+TEST_F(GoingOnTest, AnExtensionThatCannotBeWrittenLeavesTheSearchEnded) {
+  const fs::path folder = Finished(kSmall);
+  const journal::ProgressRecord before = Progress(folder);
+  const std::size_t num_trials = Trials(folder).size();
+  const std::string image = base::ReadFile(folder / "aehp.png");
+  fs::remove(folder / "aehp.png");
+  fs::create_directories(folder / "aehp.png/in_the_way");
+  EXPECT_THROW(RunFake(folder, {}, {.add_simulations = 2}), base::Error);
+  EXPECT_EQ(Progress(folder).state, "finished");
+  EXPECT_EQ(Progress(folder).stop_json, before.stop_json);
+  fs::remove_all(folder / "aehp.png");
+  base::WriteFileAtomically(folder / "aehp.png", image);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(Trials(folder).size(), num_trials);
+}
+
+// Its trials do not tell how long they were worked on.
+TEST_F(GoingOnTest, AJournalThatIsMadeAnewKnowsThatTheSearchHasEndedAndWhy) {
+  const fs::path folder = Begin(R"(, "budget": {"wall_clock": "1 s"}, "workers": 1,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 1, "replicates": 2})");
+  EXPECT_EQ(RunFake(folder, {.sleep = 0.1}), CampaignEnd::kFinished);
+  const std::string table = TrialTable(folder);
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_THAT(ErrorIn<base::Error>([&] { Trials(folder); }),
+              HasSubstr("`talus resume` makes it anew"));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(folder), table);
+  EXPECT_EQ(Result(folder).stop.kind, StopKind::kWallClock);
+  // What it was extended by since holds, and it goes on.
+  EXPECT_EQ(RunFake(folder, {}, {.add_simulations = 2}), CampaignEnd::kFinished);
+  const std::string longer = TrialTable(folder);
+  EXPECT_GT(longer.size(), table.size());
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(folder), longer);
+}
+
+TEST_F(GoingOnTest, ADamagedTrialIsRunAgainByAJournalThatIsMadeAnew) {
+  const fs::path folder = Finished(kSmall);
+  const std::string table = TrialTable(folder);
+  std::ofstream(folder / "trials/0002/trial.json", std::ios::app) << "x";
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(folder), table);
+}
+
+// One that ran when the eighth failed went well, and a session that was told of all of them at once
+// found that some had succeeded.
+TEST_F(GoingOnTest, ASearchWhoseFirstTrialsAllFailedStaysEnded) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 20}, "workers": 2,
+    "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
+  const FakeEngineOptions engine{.fail_first = 8};
+  RunFake(folder, engine);
+  const std::string table = TrialTable(folder);
+  const std::vector<journal::TrialRecord> trials = Trials(folder);
+  ASSERT_LT(trials.size(), 20u);
+  ASSERT_EQ(trials.back().status, journal::TrialStatus::kOk);
+  journal::Journal::Open(journal::JournalPath(folder))
+      .SetProgress({});  // it was killed before its end
+  RunFake(folder, engine);
+  EXPECT_EQ(TrialTable(folder), table);
+}
+
 // A budget of core time counted the last attempt only.
 TEST_F(GoingOnTest, ATrialHasTakenWhatAllItsAttemptsTook) {
   const fs::path folder = Begin(R"(, "budget": {"simulations": 1}, "workers": 1,
