@@ -141,9 +141,10 @@ std::vector<base::Sphere> ShownOf(const rigs::Case& rig_case, std::vector<base::
 }
 
 std::vector<base::Sphere> HeapOfTrial(const fs::path& folder) {
-  const auto engine = EngineOfCase(folder / "case.json");
+  const fs::path rig_case = folder / "case.json";
+  const auto engine = fs::exists(rig_case) ? EngineOfCase(rig_case) : std::nullopt;
   if (!engine || !HasLeftHeapVtp(*engine, folder)) return imaging::ReadSpheres(folder / kOwnHeap);
-  return ShownOf(LoadAnyCase(folder / "case.json"), ReadOnOurPlate(*engine, folder / kOwnHeap));
+  return ShownOf(LoadAnyCase(rig_case), ReadOnOurPlate(*engine, folder / kOwnHeap));
 }
 
 }  // namespace talus::trials

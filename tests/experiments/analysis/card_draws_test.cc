@@ -176,7 +176,8 @@ TEST(CardTests, NameTheRigThatTheSetComesFrom) {
   EXPECT_LT(card.sizes[4].diameter, 2e-3);
   // By number the finest class of equal volumes has the most grains.
   EXPECT_THAT(CardText(card, CardFormat::kLammps), HasSubstr("diam poly 5 "));
-  EXPECT_THAT(CardText(card, CardFormat::kYade), HasSubstr("psdCumm=[0.2, 0.4, 0.6, 0.8, 1]"));
+  EXPECT_THAT(CardText(card, CardFormat::kYade),
+              HasSubstr("psdCumm=[0, 0.2, 0.2, 0.4, 0.4, 0.6, 0.6, 0.8, 0.8, 1]"));
 }
 
 }  // namespace card_draws_test
