@@ -194,10 +194,13 @@ std::vector<Eigen::VectorXd> FarthestApart(const Eigen::MatrixXd& points,
   return chosen;
 }
 
+// One at least: what was told may lie beside the levels, and a narrow box round it has none.
 std::vector<double> LevelsIn(const Domain& domain, const Box& box, Eigen::Index k) {
+  const double low = domain.Snap(box.low)[k];
+  const double high = domain.Snap(box.high)[k];
   std::vector<double> inside;
   for (const double level : domain.levels[static_cast<std::size_t>(k)]) {
-    if (level >= box.low[k] && level <= box.high[k]) inside.push_back(level);
+    if (level >= low && level <= high) inside.push_back(level);
   }
   return inside;
 }
