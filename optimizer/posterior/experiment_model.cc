@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "optimizer/space/domain.h"
+#include "optimizer/space/distinct_points.h"
 
 namespace talus::optimizer {
 namespace {
@@ -18,13 +18,11 @@ Moments InOwnUnit(const ScalarTarget& target, const surrogate::Predictions& comp
 
 // Distinct sets at a scale factor: what is repeated says nothing of another place.
 double NumSetsAt(const OutputData& data, int level) {
-  std::vector<const Eigen::VectorXd*> sets;
+  DistinctPoints sets;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const auto is_it = [&](const auto* set) { return SamePoint(*set, data.points[i]); };
-    if (data.level[i] != level || std::ranges::any_of(sets, is_it)) continue;
-    sets.push_back(&data.points[i]);
+    if (data.level[i] == level) sets.Add(data.points[i]);
   }
-  return static_cast<double>(sets.size());
+  return sets.size();
 }
 
 constexpr double kOfMany = 1.2;  // SurrogateCaution of many evaluations

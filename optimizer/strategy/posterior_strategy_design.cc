@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
+#include "optimizer/space/distinct_points.h"
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
@@ -18,15 +18,13 @@ constexpr int kFewestFiner = 3;  // sets at a finer scale factor, before gain al
 template <class Counted>
 int PosteriorStrategy::NumSets(std::span<const Proposal> asked, int most,
                                const Counted& counted) const {
-  std::vector<const Eigen::VectorXd*> sets;
+  DistinctPoints sets;
   const auto add = [&](const auto& evaluation) {
-    if (static_cast<int>(sets.size()) == most || !counted(evaluation)) return;
-    const auto is_it = [&](const auto* set) { return SamePoint(*set, evaluation.point); };
-    if (std::ranges::none_of(sets, is_it)) sets.push_back(&evaluation.point);
+    if (sets.size() < most && counted(evaluation)) sets.Add(evaluation.point);
   };
   std::ranges::for_each(asked, add);
   std::ranges::for_each(observations_, add);
-  return static_cast<int>(sets.size());
+  return sets.size();
 }
 
 // Whether the model has chosen simulations already: two sets at least that are not of the design,
