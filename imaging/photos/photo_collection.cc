@@ -91,7 +91,6 @@ std::string AlsoOf(const std::vector<Fault>& alike) {
 
 // A line each; what more than a few photographs have alike is one line.
 std::string FaultsText(const std::vector<Fault>& faults) {
-  constexpr std::size_t kMostSingle = 3;
   std::map<std::string, std::vector<Fault>> by_reason;
   for (const Fault& fault : faults) by_reason[fault.Reason()].push_back(fault);
   std::string all;
@@ -99,7 +98,7 @@ std::string FaultsText(const std::vector<Fault>& faults) {
     std::vector<Fault>& alike = by_reason[fault.Reason()];
     if (alike.empty()) continue;  // said with the first of them
     all += (all.empty() ? "" : "\n") + fault.text;
-    if (alike.size() <= kMostSingle) continue;
+    if (std::ssize(alike) <= kMostSingle) continue;
     all += AlsoOf(alike);
     alike.clear();
   }

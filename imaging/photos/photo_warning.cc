@@ -40,8 +40,7 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kNoNoise:
       return "the heaps are alike to " + base::PlainNumber(warning.value, 2) +
              " px along the outline, as no two heaps are: they are photographs of one heap, or "
-             "what "
-             "is taken for powder is the same thing in all; look at the overlays (--out)";
+             "what is taken for powder is the same thing in all; look at the overlays (--out)";
     case PhotoDoubt::kFrontLit:
       return "powder is brighter than its background and is taken to be lit from the front; say "
              "\"powder\": \"bright\" (--powder bright) if so, \"dark\" if not";
@@ -50,8 +49,9 @@ std::string Reason(const PhotoWarning& warning) {
              " photographs look lit from the front, the others from behind; say which with "
              "\"powder\" (--powder)";
     case PhotoDoubt::kHiddenTop:
-      return "powder hides the plate's top in every photograph: the baseline may be as much too "
-             "low as powder hangs over the rim; brush the rim clean, or give \"frame\" (--frame)";
+      return "no photograph shows the plate's top, as powder hides it or nothing is sharp: the "
+             "baseline may be as much too low as powder hangs over the rim; brush the rim clean, "
+             "focus on the plate, or give \"frame\" (--frame)";
     case PhotoDoubt::kBeyondPicture:
       return Percent(warning.value) +
              " of the part of the table that counts lies beyond the picture, so that powder there "
@@ -91,7 +91,6 @@ bool IsOfSetUp(PhotoDoubt doubt) {
 }  // namespace
 
 std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings) {
-  constexpr std::ptrdiff_t kMostSingle = 3;
   std::vector<PhotoWarning> result;
   for (const PhotoWarning& warning : warnings) {
     const auto is_same = [&](const PhotoWarning& other) { return other.doubt == warning.doubt; };

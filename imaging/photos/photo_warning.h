@@ -21,7 +21,7 @@ enum class PhotoDoubt {
   kNoNoise,        // heaps are alike as no two are; value: noise floor / heap's width [px]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
-  kHiddenTop,      // powder hides the plate's top in every photograph
+  kHiddenTop,      // no photograph shows the plate's top
   kBeyondPicture,  // value: share of a table's part that counts and that no picture shows [-]
   kNoPowder,       // nothing stands on the plate
   kTouchesFrame,   // powder at the picture's edge
@@ -65,6 +65,8 @@ double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame);
 
 inline constexpr double kMuchBesidePlate = 0.01;  // [-]
 inline constexpr double kMuchOverexposed = 0.5;   // [-]
+// When more photographs than these are alike in a fault, one line says how many they are.
+inline constexpr std::ptrdiff_t kMostSingle = 3;
 
 // NEBP of each view over the median of all, for those that are off by more than 20 % and by more
 // than four standard deviations (1.48 × median absolute deviation); 0 for the others.

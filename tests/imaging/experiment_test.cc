@@ -387,6 +387,20 @@ TEST(Experiment, APhotographOfManyPixelsIsMeasuredByMeansOfThem) {
 }
 
 // A speck that floats and one beside the plate go, a hole fills, a grain on the plate stays.
+// As a camera of many pixels shows what it is not focussed on. The plate's bare top, ten blurs
+// wide, bends down at the rim by a tenth of a blur where the corner is looked at.
+TEST(Experiment, ABlurredPhotographShowsThePlatesTop) {
+  const fs::path folder = EmptyFolder("blurred");
+  Scene scene = SmallScene();
+  scene.blur = 4;
+  WritePng(folder / Name(1, 0), PhotographOf(scene, [](double along) {
+             return std::max(0.0, 0.8 * (110 - std::abs(along)));
+           }));
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  EXPECT_THAT(experiment.warnings, testing::IsEmpty());
+  EXPECT_NEAR(experiment.runs.at(0).views.at(0).plate.baseline, scene.baseline, 0.2 * scene.blur);
+}
+
 TEST(Experiment, KeepsWhatStandsOnThePlateAndFillsHoles) {
   const Scene scene = SmallScene();
   const auto in_disc = [](double x, double y, double cx, double cy, double r) {

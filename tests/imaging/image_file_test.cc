@@ -144,6 +144,17 @@ TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, 300), "half.tif"), base::ConfigError);
 }
 
+// As a program writes the mean of photographs. It was called damaged.
+TEST(ImageFile, ATiffOfThirtyTwoBitsIsToBeSavedWithFewer) {
+  WriteTiff<std::uint32_t>(TempFile("mean.tif"), 16843009, {.stored = Ramp()});
+  try {
+    ReadGrayImage(TempFile("mean.tif"));
+    FAIL() << "32 bits were read";
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("mean.tif: is a TIFF of 32 bits a sample"));
+  }
+}
+
 // One pixel; of `samples` one beyond the colours is of the kind `extra`.
 template <class Sample>
 std::string WriteTiffPixel(std::vector<Sample> samples, std::uint16_t photometric,

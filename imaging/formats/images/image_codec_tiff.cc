@@ -63,6 +63,11 @@ TiffLayout ReadTiffLayout(TIFF* tiff, std::size_t num_bytes, const std::string& 
   // We turn the image ourselves: libtiff mirrors, but does not turn by a quarter.
   TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   CheckImageSize({.width = layout.width, .height = layout.height, .num_bytes = num_bytes}, name);
+  if (layout.bits > 16 || layout.format == SAMPLEFORMAT_IEEEFP) {
+    throw base::ConfigError(name + ": is a TIFF of " + std::to_string(layout.bits) +
+                            " bits a sample, as programs write it, not cameras; save it with 8 or "
+                            "16 whole-number bits");
+  }
   // Before libtiff takes memory for a row of them all.
   constexpr int kMostChannels = 16;
   if (layout.channels < 1 || layout.channels > kMostChannels) {

@@ -4,20 +4,22 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "imaging/photos/plate/edge_blur.h"
 #include "imaging/photos/plate/side_lines.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr int kTrimmed = 2;               // rows at the ends of a side that the lens has rounded
 constexpr double kNearLine = 1.0;         // how far a point of the lower edge may be from it [px]
 constexpr std::size_t kFewestLower = 10;  // points that make a lower edge
 
-constexpr int kCornerFrom = 2;            // distances from the side, where the outline next to a
-constexpr int kCornerTo = 14;             // corner is looked at [px]
-constexpr double kSteepest = 2.5;         // step between neighbours of one straight outline [px]
+// Next to a corner the outline is looked at in pixels, or in larger units where the picture is
+// blurred: the blur rounds the corner.
+constexpr int kCornerFrom = 2;  // distances from the side
+constexpr int kCornerTo = 14;
+constexpr double kSteepest = 2.5;         // step between neighbours of one straight outline
 constexpr std::size_t kFewestCorner = 6;  // neighbours that make a straight outline
-constexpr double kCornerRms = 0.25;       // of them to a line [px]
+constexpr double kCornerRms = 0.25;       // of them to a line
 
 // The photograph seen in the directions of the plate, between its pixels.
 class TiltedView {
@@ -90,25 +92,26 @@ Line FitLine(const std::vector<EdgePoint>& points) {
           .rms = std::sqrt(std::max(syy - slope * sxy, 0.0) / n)};
 }
 
-// `side` -1 left, +1 right; `end` where the side ends, to about a pixel. Going up from inside the
-// plate meets light at a bare top or at a straight slope; the first powder that stands off the line
-// ends the search.
-PlateCorner FindCorner(const TiltedView& tilted, const EdgePoint& end, int side) {
-  constexpr double kBelow = 6;     // start, below the end [px]
-  constexpr double kReach = 45;    // upwards [px]
+// `side` -1 left, +1 right; `end` where the side ends, to about a `unit` [px]. Going up from inside
+// the plate meets light at a bare top or at a straight slope; the first powder that stands off the
+// line ends the search.
+PlateCorner FindCorner(const TiltedView& tilted, const EdgePoint& end, int side, double unit) {
+  const double below = 6 * unit;   // start, below the end
+  constexpr double kReach = 45;    // upwards, the unit
   std::vector<EdgePoint> outline;  // x inwards from the side, y up from `end`
   for (int distance = kCornerFrom; distance <= kCornerTo; ++distance) {
-    const EdgePoint start = tilted.Point(end, -side * distance, -kBelow);
-    const std::optional<double> way = tilted.DarkUntil(start, 0.5, kReach);
+    const double inwards = distance * unit;
+    const EdgePoint start = tilted.Point(end, -side * inwards, -below);
+    const std::optional<double> way = tilted.DarkUntil(start, 0.5, kReach * unit);
     if (!way) break;
-    const double up = *way - kBelow;
-    if (!outline.empty() && std::abs(up - outline.back().y) > kSteepest) break;
-    outline.push_back({.x = static_cast<double>(distance), .y = up});
+    const double up = *way - below;
+    if (!outline.empty() && std::abs(up - outline.back().y) > kSteepest * unit) break;
+    outline.push_back({.x = inwards, .y = up});
   }
   if (outline.size() < kFewestCorner) return {.point = end, .sharp = false};
   const Line line = FitLine(outline);
-  constexpr double kFarthest = 4;  // a corner farther from the end is something else [px]
-  if (line.rms > kCornerRms || std::abs(line.at_zero) > kFarthest) {
+  constexpr double kFarthest = 4;  // a corner farther from the end is something else
+  if (line.rms > kCornerRms * unit || std::abs(line.at_zero) > kFarthest * unit) {
     return {.point = end, .sharp = false};
   }
   return {.point = tilted.Point(end, 0, line.at_zero), .sharp = true};
@@ -225,8 +228,10 @@ PlateEdges EdgesAlong(const BacklitPhoto& photo, const PlateSides& sides) {
   const TiltedView tilted(photo, edges.tilt);
   edges.lower = FindLower(tilted, plate, photo.image.height);
   edges.seam = FindSeam(tilted, middle, edges.width);
-  edges.top_left = FindCorner(tilted, left, -1);
-  edges.top_right = FindCorner(tilted, right, +1);
+  constexpr double kUsualBlur = 1.5;  // for which the numbers above are pixels
+  const double unit = std::max(1.0, EdgeBlur(photo.image, plate) / kUsualBlur);
+  edges.top_left = FindCorner(tilted, left, -1, unit);
+  edges.top_right = FindCorner(tilted, right, +1, unit);
   return edges;
 }
 

@@ -15,6 +15,8 @@ struct SideEnds {
   double right = 0;
 };
 
+inline constexpr int kTrimmed = 2;  // rows at the ends of a side that the lens has rounded
+
 // Rows first … last whose ends lie on x = left + slope (y - first), y the row's centre, and the
 // same for right.
 struct StraightSides {
