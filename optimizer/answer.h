@@ -11,6 +11,9 @@
 
 namespace talus::optimizer {
 
+// Probability of every range and region that is stated; texts call it 90 %.
+inline constexpr double kRegionLevel = 0.9;
+
 // Credible range of one parameter, in the unit cube.
 struct Range {
   double low = 0;

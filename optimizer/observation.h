@@ -12,6 +12,8 @@ static_assert(EIGEN_MALLOC_ALREADY_ALIGNED,
 
 namespace talus::optimizer {
 
+inline constexpr double kLargestValue = 1e100;  // squares of values are summed up
+
 enum class Origin { kDesign, kRepeat, kModel, kSearch };  // why a point was proposed
 
 struct Proposal {

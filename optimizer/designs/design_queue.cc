@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "optimizer/space/point_rows.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 
@@ -18,7 +19,7 @@ void DesignQueue::AppendSnapped(const Domain& domain, const Eigen::VectorXd& poi
   if (domain.IsContinuous()) return Append(point, false);
   const auto is_queued = [&](const Eigen::VectorXd& other) {
     return std::any_of(items_.begin(), items_.end(),
-                       [&](const Item& item) { return SamePoint(item.point, other); });
+                       [&](const Item& item) { return surrogate::SamePoint(item.point, other); });
   };
   if (!domain.IsList()) {
     const Eigen::VectorXd snapped = domain.Snap(point);
@@ -42,7 +43,7 @@ void DesignQueue::Append(const Eigen::VectorXd& point, bool is_evaluated) {
 
 void DesignQueue::MarkEvaluated(const Eigen::VectorXd& point) {
   for (Item& item : items_) {
-    if (!item.is_evaluated) item.is_evaluated = SamePoint(item.point, point);
+    if (!item.is_evaluated) item.is_evaluated = surrogate::SamePoint(item.point, point);
   }
 }
 

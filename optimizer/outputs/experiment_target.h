@@ -1,6 +1,7 @@
 // What one experiment has measured: the image of its heap, numbers with errors, or both.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace talus::optimizer {
 struct ScalarTarget {
   std::string name;  // "mass_fallen_kg"
   double value = 0;
-  double standard_error = 0;  // of `value`, > 0
+  double standard_error = 0;                              // of `value`, > 0
+  double low = -std::numeric_limits<double>::infinity();  // it cannot be below, …
+  double high = std::numeric_limits<double>::infinity();  // … nor above
 };
 
 struct ExperimentTarget {

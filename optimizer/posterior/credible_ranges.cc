@@ -42,10 +42,10 @@ std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confiden
 }
 
 std::vector<Range> AskedRanges(const Eigen::MatrixXd& sample,
-                               const std::vector<Eigen::Index>& nuisances, double confidence) {
+                               const std::vector<Eigen::Index>& nuisances) {
   std::vector<Range> ranges(static_cast<std::size_t>(sample.cols()));
   const auto set = [&](const std::vector<Eigen::Index>& columns) {
-    const std::vector<Range> some = CredibleRanges(sample(Eigen::all, columns), confidence);
+    const std::vector<Range> some = CredibleRanges(sample(Eigen::all, columns));
     for (std::size_t k = 0; k < columns.size(); ++k) {
       ranges[static_cast<std::size_t>(columns[k])] = some[k];
     }
@@ -61,7 +61,7 @@ std::vector<Range> AskedRanges(const Eigen::MatrixXd& sample,
 
 Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample,
                                  const std::vector<Eigen::Index>& nuisances) {
-  const std::vector<Range> ranges = AskedRanges(sample, nuisances, 0.9);
+  const std::vector<Range> ranges = AskedRanges(sample, nuisances);
   Eigen::VectorXd width(sample.cols());
   for (Eigen::Index i = 0; i < width.size(); ++i) {
     const Range& range = ranges[static_cast<std::size_t>(i)];

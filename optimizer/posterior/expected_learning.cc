@@ -103,10 +103,9 @@ Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
 }  // namespace
 
 double HalfWidth90(const Eigen::VectorXd& values) {
-  constexpr double kConfidence = 0.9;
   const Eigen::MatrixXd sorted = Sorted(values);
-  return 0.5 * (QuantileOf(sorted, 0.5 + 0.5 * kConfidence)[0] -
-                QuantileOf(sorted, 0.5 - 0.5 * kConfidence)[0]);
+  return 0.5 * (QuantileOf(sorted, 0.5 + 0.5 * kRegionLevel)[0] -
+                QuantileOf(sorted, 0.5 - 0.5 * kRegionLevel)[0]);
 }
 
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,

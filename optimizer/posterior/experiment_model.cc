@@ -124,11 +124,21 @@ OutputMoments ExperimentModel::Outputs(const Eigen::MatrixXd& points) const {
   OutputMoments outputs{.mean = Eigen::MatrixXd(points.rows(), num_outputs()),
                         .variance = Eigen::MatrixXd(points.rows(), num_outputs())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
-    const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
+    const surrogate::Predictions all = PredictOutput(k, points);
     outputs.mean.col(k) = all.mean;
     outputs.variance.col(k) = all.variance;
   }
   return outputs;
+}
+
+surrogate::Predictions ExperimentModel::PredictOutput(Eigen::Index output,
+                                                      const Eigen::MatrixXd& points) const {
+  surrogate::Predictions at = outputs_.output(output).PredictAll(points);
+  if (output < outputs_.num_modes()) return at;
+  const ScalarTarget& scalar =
+      setup_.target->scalars[static_cast<std::size_t>(output - outputs_.num_modes())];
+  at.mean = at.mean.cwiseMax(Compress(scalar, scalar.low)).cwiseMin(Compress(scalar, scalar.high));
+  return at;
 }
 
 std::vector<Eigen::MatrixXd> ExperimentModel::ErrorDraws(const Eigen::MatrixXd& points,
@@ -256,7 +266,7 @@ std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) con
   std::vector<Moments> all;
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(s);
-    const surrogate::Predictions at = outputs_.output(output).PredictAll(points);
+    const surrogate::Predictions at = PredictOutput(output, points);
     all.push_back(InOwnUnit(scalars[s], at));
   }
   return all;
@@ -266,7 +276,7 @@ std::vector<double> ExperimentModel::ScalarNoise(const Eigen::VectorXd& x) const
   std::vector<double> noise;
   for (const ScalarTarget& scalar : setup_.target->scalars) {
     const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(noise.size());
-    surrogate::Predictions at = outputs_.output(output).PredictAll(x.transpose());
+    surrogate::Predictions at = PredictOutput(output, x.transpose());
     at.variance.setConstant(outputs_.TargetNoise(output));
     noise.push_back(InOwnUnit(scalar, at).sd[0]);
   }

@@ -74,6 +74,8 @@ class ExperimentModel {
   OutputState state() const { return outputs_.state(); }
 
   OutputMoments Outputs(const Eigen::MatrixXd& points) const;
+  // A number's mean is one that it can be.
+  surrogate::Predictions PredictOutput(Eigen::Index output, const Eigen::MatrixXd& points) const;
   // Joint draws of the surrogate's error at the target: element k of output k, one draw a row, one
   // point a column; not inflated.
   std::vector<Eigen::MatrixXd> ErrorDraws(const Eigen::MatrixXd& points, int num_draws,

@@ -6,6 +6,7 @@
 
 #include "optimizer/posterior/importance_sample.h"
 #include "optimizer/space/point_rows.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -35,7 +36,8 @@ Eigen::MatrixXd StackResiduals(const std::vector<ExperimentModel>& models,
     for (int i = 0; i < data[e].size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
       auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) {
-        return p.level == data[e].level[k] && !p.has[e] && SamePoint(p.point, data[e].points[k]);
+        return p.level == data[e].level[k] && !p.has[e] &&
+               surrogate::SamePoint(p.point, data[e].points[k]);
       });
       if (place == places.end()) {
         places.push_back({data[e].points[k], data[e].level[k], std::vector<bool>(models.size())});

@@ -5,11 +5,7 @@
 #include <numeric>
 
 namespace talus::optimizer {
-namespace {
-
-constexpr double kJointRegion = 0.9;  // probability of the joint region
-
-}  // namespace
+namespace {}  // namespace
 
 double LogSumExp(const Eigen::VectorXd& x) {
   const double most = x.maxCoeff();
@@ -52,7 +48,7 @@ void PosteriorSample::SetRegion() {
   double sum = 0;
   for (const Eigen::Index i : order) {
     region_log_density = log_density[i];
-    if ((sum += weight[i]) >= kJointRegion) break;
+    if ((sum += weight[i]) >= kRegionLevel) break;
   }
 }
 

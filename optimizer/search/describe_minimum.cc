@@ -284,7 +284,7 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& whole,
                            Around(point, options.num_candidates / 2, options.seed)));
   const Eigen::MatrixXd minimisers = DrawMinimisers(
       model, domain, DrawCandidates(model, domain, candidates, answer, options), options);
-  answer.credible = CredibleRanges(minimisers, options.confidence);
+  answer.credible = CredibleRanges(minimisers);
   Include(point, answer.credible);
   answer.correlation = Correlation(minimisers);
   DescribeTies(model, domain, candidates, options, answer);

@@ -19,7 +19,6 @@ struct AnswerOptions {
   int num_draw_candidates = 400;  // plausible ones, at which draws are minimised, > 1
   int num_draws = 400;            // posterior draws, > 1
   int num_sobol = 512;            // base sample of the Sobol indices, > 1
-  double confidence = 0.9;        // of the credible ranges together, in (0, 1)
   std::uint64_t seed = 1;
   // Where evaluations more probably fail than work, no minimum is looked for; null: all work.
   const Feasibility* feasibility = nullptr;

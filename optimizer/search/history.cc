@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surrogate/same_point.h"
+
 namespace talus::optimizer {
 namespace {
 
@@ -36,7 +38,7 @@ void Repeats::CountLast(const History& history) {
   const Eigen::Index last = history.values.size() - 1;
   const Eigen::VectorXd point = history.points.row(last);
   for (Eigen::Index j = 0; j < last; ++j) {
-    if (!SamePoint(point, history.points.row(j))) continue;
+    if (!surrogate::SamePoint(point, history.points.row(j))) continue;
     ++num_repeats;
     differs = differs || history.values[last] != history.values[j];
     return;
@@ -62,7 +64,8 @@ Answer BestObserved(std::span<const Observation> told, const Domain& domain,
   answer.point = best->point;
   answer.predicted_value = best->value;
   for (Eigen::Index i = 0; i < answer.point.size(); ++i) {
-    if (answer.point[i] > kSamePoint && answer.point[i] < 1 - kSamePoint) continue;
+    if (answer.point[i] > surrogate::kSamePoint && answer.point[i] < 1 - surrogate::kSamePoint)
+      continue;
     answer.warnings.push_back(
         {.parameter = static_cast<int>(i), .is_upper = answer.point[i] > 0.5});
   }

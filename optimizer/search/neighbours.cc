@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "optimizer/space/domain.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 
@@ -17,7 +18,7 @@ Neighbours NeighboursOfBest(const History& history, int count) {
   const Eigen::VectorXd distances =
       (history.points.rowwise() - result.middle.transpose()).rowwise().norm();
   for (Eigen::Index i = 0; i < history.values.size(); ++i) {
-    if (!SamePoint(history.points.row(i), result.middle)) result.others.push_back(i);
+    if (!surrogate::SamePoint(history.points.row(i), result.middle)) result.others.push_back(i);
   }
   std::stable_sort(result.others.begin(), result.others.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return distances[a] < distances[b]; });

@@ -10,6 +10,7 @@
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/search/stopping_rule.h"
 #include "optimizer/space/point_rows.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -99,15 +100,16 @@ std::optional<Eigen::VectorXd> SearchRecord::FirstRepeat(
 
 bool SearchRecord::HasFailed(const Eigen::VectorXd& point) const {
   return std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
-    return seen.failed && SamePoint(seen.point, point);
+    return seen.failed && surrogate::SamePoint(seen.point, point);
   });
 }
 
 bool SearchRecord::WasEvaluated(const Eigen::VectorXd& point,
                                 std::span<const Eigen::VectorXd> asked) const {
   return IsAmong(point, asked) ||
-         std::any_of(told_.begin(), told_.end(),
-                     [&](const Observation& seen) { return SamePoint(seen.point, point); });
+         std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+           return surrogate::SamePoint(seen.point, point);
+         });
 }
 
 Domain SearchRecord::OpenDomain(std::span<const Eigen::VectorXd> asked) const {
@@ -116,7 +118,9 @@ Domain SearchRecord::OpenDomain(std::span<const Eigen::VectorXd> asked) const {
   std::vector<Eigen::Index> open;
   for (Eigen::Index i = 0; i < domain_.candidates.rows(); ++i) {
     const Eigen::VectorXd point = domain_.candidates.row(i);
-    const auto is_here = [&](const Eigen::VectorXd& other) { return SamePoint(point, other); };
+    const auto is_here = [&](const Eigen::VectorXd& other) {
+      return surrogate::SamePoint(point, other);
+    };
     const auto num_asked = std::count_if(asked.begin(), asked.end(), is_here);
     const auto num_told = std::count_if(
         told_.begin(), told_.end(), [&](const Observation& seen) { return is_here(seen.point); });

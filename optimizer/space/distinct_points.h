@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "optimizer/space/domain.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 
@@ -13,7 +13,9 @@ class DistinctPoints {
  public:
   // Counts a point, which must outlive this, unless it is one of those before but for rounding.
   void Add(const Eigen::VectorXd& point) {
-    const auto is_it = [&](const Eigen::VectorXd* other) { return SamePoint(*other, point); };
+    const auto is_it = [&](const Eigen::VectorXd* other) {
+      return surrogate::SamePoint(*other, point);
+    };
     if (std::ranges::none_of(points_, is_it)) points_.push_back(&point);
   }
   int size() const { return static_cast<int>(points_.size()); }

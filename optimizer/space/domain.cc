@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surrogate/same_point.h"
+
 namespace talus::optimizer {
 
 bool Domain::IsBeforeAdded(const Eigen::VectorXd& point) const {
   return std::any_of(added.begin(), added.end(), [&](const AddedCoordinate& a) {
-    return std::abs(point[a.coordinate] - a.at) <= kSamePoint;
+    return std::abs(point[a.coordinate] - a.at) <= surrogate::kSamePoint;
   });
 }
 

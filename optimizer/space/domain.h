@@ -47,12 +47,4 @@ struct Domain {
   Eigen::VectorXd Snap(const Eigen::VectorXd& point) const;
 };
 
-// Two points nearer than this in every coordinate are the same one: a point that went through
-// native values and back differs by rounding only.
-inline constexpr double kSamePoint = 1e-9;
-
-inline bool SamePoint(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return (a - b).lpNorm<Eigen::Infinity>() <= kSamePoint;
-}
-
 }  // namespace talus::optimizer

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "optimizer/space/domain.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -32,7 +33,7 @@ LevelRanks::LevelRanks(const Eigen::MatrixXd& candidates) {
   for (const auto& column : candidates.colwise()) {
     std::vector<double> values(column.begin(), column.end());
     std::sort(values.begin(), values.end());
-    const auto is_same = [](double a, double b) { return b - a <= kSamePoint; };
+    const auto is_same = [](double a, double b) { return b - a <= surrogate::kSamePoint; };
     values.erase(std::unique(values.begin(), values.end(), is_same), values.end());
     values_.push_back(std::move(values));
   }

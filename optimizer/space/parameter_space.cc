@@ -9,6 +9,7 @@
 #include "base/text/name.h"
 #include "optimizer/space/candidate_table.h"
 #include "optimizer/space/point_rows.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -312,7 +313,7 @@ bool ParameterSpace::IsAtLevels(const Eigen::VectorXd& unit) const {
     const double at = unit[k++];
     if (parameter.levels.empty()) continue;
     if (std::ranges::none_of(parameter.levels, [&](double level) {
-          return std::abs(parameter.ToUnit(level) - at) <= kSamePoint;
+          return std::abs(parameter.ToUnit(level) - at) <= surrogate::kSamePoint;
         })) {
       return false;
     }

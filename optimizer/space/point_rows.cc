@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "surrogate/same_point.h"
+
 namespace talus::optimizer {
 namespace {
 
@@ -41,8 +43,9 @@ Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom)
 }
 
 bool IsAmong(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> points) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](const Eigen::VectorXd& other) { return SamePoint(point, other); });
+  return std::any_of(points.begin(), points.end(), [&](const Eigen::VectorXd& other) {
+    return surrogate::SamePoint(point, other);
+  });
 }
 
 }  // namespace talus::optimizer

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "optimizer/search/history.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -22,7 +23,7 @@ DesignStrategy::DesignStrategy(const Domain& domain, const Points& points, std::
 void DesignStrategy::Append(const Points& points) {
   for (const Eigen::VectorXd& point : points) {
     const bool is_told = std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
-      return SamePoint(seen.point, point);
+      return surrogate::SamePoint(seen.point, point);
     });
     queue_.Append(point, is_told);
   }
@@ -72,7 +73,7 @@ Points GridStrategy::Refinement() const {
   std::vector<const Observation*> best;
   for (const Observation& observation : told()) {
     const bool on_grid = std::any_of(grid_.begin(), grid_.end(), [&](const Eigen::VectorXd& p) {
-      return SamePoint(p, observation.point);
+      return surrogate::SamePoint(p, observation.point);
     });
     if (on_grid && !observation.failed) best.push_back(&observation);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "optimizer/space/point_rows.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -51,7 +52,8 @@ class Misses {
     double sum = 0, num = 0;
     bool is_evaluated = false;
     for (std::size_t i = 0; i < told_.size(); ++i) {
-      if (told_[i].experiment != experiment || !SamePoint(told_[i].point, point)) continue;
+      if (told_[i].experiment != experiment || !surrogate::SamePoint(told_[i].point, point))
+        continue;
       is_evaluated = true;
       if (!std::isfinite(miss_[i])) continue;
       sum += miss_[i];

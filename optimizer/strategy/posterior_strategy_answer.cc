@@ -14,12 +14,12 @@
 #include "optimizer/space/point_rows.h"
 #include "optimizer/strategy/observed_misses.h"
 #include "optimizer/strategy/posterior_strategy.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
 
 constexpr int kAnswerDraws = 2000;
-constexpr double kRegionMass = 0.9;
 
 }  // namespace
 
@@ -97,7 +97,7 @@ Answer PosteriorStrategy::RecommendUnmodelled() const {
   answer.predicted_value = 0;
   for (const Observation& told : observations_) {
     const bool has_image = targets_[static_cast<std::size_t>(told.experiment)].image.width > 0;
-    if (told.failed || !has_image || !SamePoint(told.point, answer.point)) continue;
+    if (told.failed || !has_image || !surrogate::SamePoint(told.point, answer.point)) continue;
     answer.predicted_value = told.value;
     break;
   }
@@ -110,7 +110,7 @@ Answer PosteriorStrategy::Recommend() {
   Answer answer;
   Summarise(answer);
   const PosteriorSummary& summary = *answer.posterior;
-  answer.credible = AskedRanges(summary.draws, domain_.nuisances, kRegionMass);
+  answer.credible = AskedRanges(summary.draws, domain_.nuisances);
   answer.correlation = RankCorrelation(summary.draws);
   for (int i = 0; i < kMostTied; ++i) {
     answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
@@ -152,8 +152,7 @@ AnswerIfShifted PosteriorStrategy::IfShifted(const std::vector<ShiftBySet>& shif
                            domain_, joint, options_.seed);
   AnswerIfShifted answer{
       .point = FindBranches(asked, asked.Sample(joint), options_.seed).front().point,
-      .credible =
-          AskedRanges(joint.Draws(kAnswerDraws, options_.seed), domain_.nuisances, kRegionMass)};
+      .credible = AskedRanges(joint.Draws(kAnswerDraws, options_.seed), domain_.nuisances)};
   // What fits with the shift there fits without where so much less was measured.
   for (std::size_t e = 0; e < shifts.size(); ++e) {
     moved.models()[e].MoveMeasured(-shifts[e](answer.point.transpose()).transpose());

@@ -5,6 +5,7 @@
 
 #include "optimizer/space/distinct_points.h"
 #include "optimizer/strategy/posterior_strategy.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -36,7 +37,7 @@ bool PosteriorStrategy::IsUnderWay() const {
   return NumSets({}, kChosen, [&](const auto& told) {
            return std::none_of(
                design_.rowwise().begin(), design_.rowwise().end(),
-               [&](const auto& row) { return SamePoint(told.point, row.transpose()); });
+               [&](const auto& row) { return surrogate::SamePoint(told.point, row.transpose()); });
          }) == kChosen;
 }
 
@@ -58,7 +59,7 @@ std::optional<Proposal> PosteriorStrategy::FromDesign(std::span<const Proposal> 
     const Eigen::VectorXd point = design_.row(i);
     for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
       const auto is_it = [&](const auto& other) {
-        return other.experiment == e && SamePoint(other.point, point);
+        return other.experiment == e && surrogate::SamePoint(other.point, point);
       };
       if (has_enough(e) || std::any_of(asked.begin(), asked.end(), is_it) ||
           std::any_of(observations_.begin(), observations_.end(), is_it)) {

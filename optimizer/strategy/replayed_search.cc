@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "optimizer/search/history.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
@@ -39,14 +40,14 @@ class Memory {
   double Look(const Eigen::VectorXd& point) {
     if (!domain_.Contains(point)) return Worst();
     for (const Observation& observation : told_) {
-      if (SamePoint(observation.point, point)) {
+      if (surrogate::SamePoint(observation.point, point)) {
         if (observation.failed) return Worst();
         worst_ = std::max(worst_.value_or(observation.value), observation.value);
         return observation.value;
       }
     }
     for (const Eigen::VectorXd& runs : pending_) {
-      if (SamePoint(runs, point)) return Nearest(point);
+      if (surrogate::SamePoint(runs, point)) return Nearest(point);
     }
     wanted_ = point;
     throw Wanted{point};

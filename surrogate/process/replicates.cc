@@ -1,5 +1,7 @@
 #include "surrogate/process/replicates.h"
 
+#include "surrogate/same_point.h"
+
 namespace talus::surrogate {
 namespace {
 
@@ -24,10 +26,7 @@ void Append(PooledData& data, const Site& site, double value, int first) {
 Eigen::Index AddTo(PooledData& data, const Site& site, double value) {
   const Eigen::Index size = data.size();
   for (Eigen::Index i = 0; i < size; ++i) {
-    if (data.level[i] != site.level ||
-        (data.sites.columns.col(i) - site.x).lpNorm<Eigen::Infinity>() > kSamePoint) {
-      continue;
-    }
+    if (data.level[i] != site.level || !SamePoint(data.sites.columns.col(i), site.x)) continue;
     const double count = data.counts[i] + 1;
     const double difference = value - data.values[i];
     data.values[i] += difference / count;

@@ -39,10 +39,6 @@ struct PooledData {
   double num_values() const { return counts.sum(); }
 };
 
-// Points nearer than this in every coordinate are the same: rounding on the way through native
-// values and back must not hide a replicate.
-inline constexpr double kSamePoint = 1e-9;
-
 // `num_levels`: the number of scale factors.
 PooledData Pool(const Evaluations& evaluations, int num_levels = 1);
 

@@ -14,6 +14,7 @@
 #include "optimizer/space/level_ranks.h"
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/strategy/make_strategy.h"
+#include "surrogate/same_point.h"
 #include "tests/error_in.h"
 
 namespace talus::optimizer {
@@ -25,7 +26,7 @@ double Bowl(const Eigen::VectorXd& u) { return (u.array() - 0.37).square().sum()
 
 Eigen::Index RowOf(const Eigen::MatrixXd& rows, const Eigen::VectorXd& point) {
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    if (SamePoint(rows.row(i), point)) return i;
+    if (surrogate::SamePoint(rows.row(i), point)) return i;
   }
   return -1;
 }
@@ -55,7 +56,7 @@ TEST_P(Lists, AnExactListIsEvaluatedOnceEachToItsEnd) {
     }
   }
   EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 1);
-  EXPECT_TRUE(SamePoint(strategy->Recommend().point, domain_.candidates.row(best)));
+  EXPECT_TRUE(surrogate::SamePoint(strategy->Recommend().point, domain_.candidates.row(best)));
   // In threes: the design of 5, then a model of a bowl. By chance it would be the 7th at the
   // median.
   const bool has_model = GetParam() != StrategyKind::kLhs && GetParam() != StrategyKind::kSobol;
@@ -170,7 +171,7 @@ TEST(Levels, ProposalsLieOnThemAndTheOtherParameterIsFree) {
       const Eigen::VectorXd point = strategy->Ask(1, {}).front().point;
       const std::vector<double> native = space.ToNative(point);
       EXPECT_THAT(native[0], ::testing::AnyOf(10, 20, 40, 70));
-      EXPECT_TRUE(SamePoint(domain.Snap(point), point));
+      EXPECT_TRUE(surrogate::SamePoint(domain.Snap(point), point));
       const double value = std::pow(native[0] / 40 - 1.1, 2) + std::pow(native[1] - 0.3, 2);
       strategy->Tell({.point = point, .value = value + (exact ? 0 : 0.01 * random.Normal())});
     }

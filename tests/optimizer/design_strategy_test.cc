@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "optimizer/strategy/make_strategy.h"
+#include "surrogate/same_point.h"
 #include "tests/error_in.h"
 
 namespace talus::optimizer {
@@ -44,7 +45,7 @@ TEST(GridStrategy, SweepsThenRefinesTheBestAndSaysSo) {
   const auto strategy = MakeStrategy(Grid({8, 8, 9}, 20), domain, nullptr, 1);
   const auto asked = RunToTheEnd(*strategy, 7);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(SamePoint(asked[i], asked[j]));
+    for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(surrogate::SamePoint(asked[i], asked[j]));
   }
   EXPECT_GT(asked.size(), 576u + 26u);
   EXPECT_LE(asked.size(), 576u + 20u * 26u);
@@ -77,7 +78,7 @@ TEST(DesignStrategy, AsksForEachPointOnceAndSkipsPendingOnes) {
     const auto strategy = MakeStrategy(options, domain, nullptr, 3);
     const auto first = strategy->Ask(1, {});
     const std::vector<Eigen::VectorXd> pending{first[0].point};
-    EXPECT_FALSE(SamePoint(strategy->Ask(1, pending)[0].point, first[0].point));
+    EXPECT_FALSE(surrogate::SamePoint(strategy->Ask(1, pending)[0].point, first[0].point));
     EXPECT_EQ(RunToTheEnd(*strategy, 5).size(), 12u);
     EXPECT_TRUE(strategy->Ask(1, {}).empty());
   }

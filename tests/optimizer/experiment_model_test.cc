@@ -95,5 +95,27 @@ TEST(ExperimentModel, OneFineEvaluationIsNoGroundForATension) {
   EXPECT_GE(model.SquaredMisfit(at.transpose())[0], squared / 4);
 }
 
+// Nothing falls below 0.6, where a smooth surrogate swings under zero.
+TEST(ExperimentModel, ANumberIsPredictedAsItCanBe) {
+  const Levels levels({1}, 0);
+  OutputData data;
+  for (int i = 0; i < 12; ++i) {
+    const double u = (i + 0.5) / 12;
+    data.points.push_back(Eigen::VectorXd::Constant(1, u));
+    data.level.push_back(0);
+    data.scalars.push_back({u < 0.6 ? 0 : 20 * (u - 0.6)});
+  }
+  const Eigen::MatrixXd points = Eigen::VectorXd::LinSpaced(50, 0, 1);
+  const auto model_of = [&](const ExperimentTarget& target) {
+    return ExperimentModel({.target = &target, .code = nullptr, .levels = &levels}, data, nullptr);
+  };
+  const ExperimentTarget free{.name = "plate", .scalars = {{"mass_fallen_kg", 1, 0.5}}};
+  ASSERT_LT(model_of(free).Scalars(points)[0].mean.minCoeff(), 0);
+  const ExperimentTarget bounded{.name = "plate", .scalars = {{"mass_fallen_kg", 1, 0.5, 0}}};
+  const ExperimentModel model = model_of(bounded);
+  EXPECT_EQ(model.Scalars(points)[0].mean.minCoeff(), 0);
+  EXPECT_EQ(model.Outputs(points).mean.minCoeff(), 0);
+}
+
 }  // namespace experiment_model_test
 }  // namespace talus::optimizer

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "optimizer/strategy/posterior_strategy.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace first_evaluations_test {
@@ -40,7 +41,8 @@ Observation Simulate(const Proposal& p, int run) {
 int NumSetsOf(const std::vector<Proposal>& proposals) {
   std::vector<Eigen::VectorXd> sets;
   for (const Proposal& p : proposals) {
-    if (std::ranges::none_of(sets, [&](const auto& set) { return SamePoint(set, p.point); })) {
+    if (std::ranges::none_of(sets,
+                             [&](const auto& set) { return surrogate::SamePoint(set, p.point); })) {
       sets.push_back(p.point);
     }
   }

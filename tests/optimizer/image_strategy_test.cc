@@ -10,6 +10,7 @@
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/strategy/make_strategy.h"
 #include "surrogate/images/column_edges.h"
+#include "surrogate/same_point.h"
 #include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
@@ -150,7 +151,8 @@ TEST(ImageStrategy, BatchesHoldDifferentPointsAndGetThereToo) {
   RunFor(*strategy, objective, Smooth, 20, 4);
   const auto batch = strategy->Ask(4, {});
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(SamePoint(batch[i].point, batch[j].point));
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(surrogate::SamePoint(batch[i].point, batch[j].point));
   }
   EXPECT_LT(objective.Value(HeapImage(strategy->Recommend().point, 0, 0)), 0.1);
 }
@@ -224,7 +226,7 @@ TEST(ImageStrategy, FailedEvaluationsAreNotProposedAgain) {
   std::vector<Eigen::VectorXd> failed;
   for (std::uint64_t i = 0; i < 20; ++i) {
     const auto point = strategy->Ask(1, {}).at(0).point;
-    for (const auto& other : failed) EXPECT_FALSE(SamePoint(point, other));
+    for (const auto& other : failed) EXPECT_FALSE(surrogate::SamePoint(point, other));
     if (point[0] < 0.3) {
       EXPECT_LT(i, 12U);  // that the design has, or that two failures have not yet told
       failed.push_back(point);

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "optimizer/strategy/make_strategy.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace rbf_strategy_test {
@@ -52,7 +53,8 @@ TEST(RbfStrategy, ToldTheSameProposesTheSameAndBatchesDiffer) {
   const auto again = second->Ask(4, {});
   for (std::size_t i = 0; i < batch.size(); ++i) {
     EXPECT_EQ(batch[i].point, again[i].point);
-    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(SamePoint(batch[i].point, batch[j].point));
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(surrogate::SamePoint(batch[i].point, batch[j].point));
   }
 }
 

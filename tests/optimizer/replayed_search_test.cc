@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "optimizer/strategy/make_strategy.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace replayed_search_test {
@@ -42,7 +43,7 @@ TEST_P(EverySearch, BatchesHoldNoPointTwiceAndNoPendingOne) {
     auto proposals = strategy->Ask(2, pending);
     proposals.insert(proposals.begin(), before.begin(), before.end());
     for (const Proposal& p : proposals) {
-      for (const auto& other : asked) ASSERT_FALSE(SamePoint(p.point, other));
+      for (const auto& other : asked) ASSERT_FALSE(surrogate::SamePoint(p.point, other));
       asked.push_back(p.point);
       ASSERT_TRUE((p.point.array() >= 0).all() && (p.point.array() <= 1).all());
     }

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
+#include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace scalar_strategy_test {
@@ -154,7 +155,8 @@ TEST(ScalarStrategy, AskingForEightIsAskingOneByOneWithTheOthersPending) {
   Points pending;
   for (const Proposal& proposal : eight) {
     EXPECT_EQ(strategy.Ask(1, pending).at(0).point, proposal.point);
-    for (const Eigen::VectorXd& other : pending) EXPECT_FALSE(SamePoint(other, proposal.point));
+    for (const Eigen::VectorXd& other : pending)
+      EXPECT_FALSE(surrogate::SamePoint(other, proposal.point));
     pending.push_back(proposal.point);
   }
 }
@@ -166,7 +168,7 @@ TEST(ScalarStrategy, OnlyDeliberateRepeatsAndNoMoreThanAllowed) {
   for (int i = 0; i < 40; ++i) {
     const Proposal proposal = strategy.Ask(1, {}).at(0);
     const bool same = std::any_of(seen.begin(), seen.end(), [&](const Eigen::VectorXd& other) {
-      return SamePoint(other, proposal.point);
+      return surrogate::SamePoint(other, proposal.point);
     });
     EXPECT_EQ(same, proposal.origin == Origin::kRepeat);
     repeats += same ? 1 : 0;
@@ -187,7 +189,7 @@ TEST(ScalarStrategy, LearnsWhereEvaluationsFail) {
   int late_failures = 0;
   for (int i = 0; i < 50; ++i) {
     const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
-    for (const Eigen::VectorXd& other : failed) EXPECT_FALSE(SamePoint(other, point));
+    for (const Eigen::VectorXd& other : failed) EXPECT_FALSE(surrogate::SamePoint(other, point));
     const bool fails = point[0] > 0.5;
     if (fails) failed.push_back(point);
     if (fails && i >= 20) ++late_failures;
@@ -209,7 +211,8 @@ TEST(ScalarStrategy, DoesNotInsistOnARepeatThatFails) {
   Points failed;
   for (int i = 0; i < 14; ++i) {
     const Proposal proposal = strategy.Ask(1, {}).at(0);
-    for (const Eigen::VectorXd& other : failed) EXPECT_FALSE(SamePoint(other, proposal.point));
+    for (const Eigen::VectorXd& other : failed)
+      EXPECT_FALSE(surrogate::SamePoint(other, proposal.point));
     const bool fails = proposal.origin == Origin::kRepeat;
     if (fails) failed.push_back(proposal.point);
     strategy.Tell({.point = proposal.point,
@@ -225,7 +228,7 @@ TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
   Points seen;
   for (int i = 0; i < 15; ++i) {
     const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
-    for (const Eigen::VectorXd& other : seen) EXPECT_FALSE(SamePoint(other, point));
+    for (const Eigen::VectorXd& other : seen) EXPECT_FALSE(surrogate::SamePoint(other, point));
     seen.push_back(point);
     strategy.Tell({.point = point, .failed = true, .field = {}});
   }
