@@ -103,9 +103,8 @@ rigs::Case CampaignGoal::CaseAt(const fs::path& look, const DesignRecord& design
   // Every run has a seed of its own.
   const std::uint64_t number = std::stoull(look.filename().string()) * kFirstRuns + index;
   base::Random random(plan_.spec.seed, base::Stream("run of a goal"), number);
-  constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
   return CaseWith(plan_, process_, plan_.space.ToNative(PointOf(design, index)),
-                  1 + random.Below(kMostSeeds));
+                  1 + random.Below(rigs::kMostSeeds));
 }
 
 bool CampaignGoal::IsOurs(const DesignRecord& design) const {

@@ -12,6 +12,7 @@
 #include "experiments/analysis/next/unknown_discount.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "imaging/spheres/projection.h"
 
@@ -51,10 +52,13 @@ std::optional<optimizer::ScalarTarget> TargetOf(const ExpectedNumber& number,
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*low == *high) return std::nullopt;
   const double mean = base::SampleOf(values).mean;
+  const rigs::Bounds possible = rigs::BoundsOf(number.metric);
   return optimizer::ScalarTarget{
       .name = number.metric,
       .value = mean,
-      .standard_error = std::max(number.standard_error, number.relative_error * std::abs(mean))};
+      .standard_error = std::max(number.standard_error, number.relative_error * std::abs(mean)),
+      .low = possible.low,
+      .high = possible.high};
 }
 
 Hypothetical Imagine(const Ground& ground, const TestCandidate& test, const TestDesign& design) {

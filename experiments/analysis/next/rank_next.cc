@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/sample.h"
@@ -77,7 +78,7 @@ NextCandidate MoreSimulations(const Ground& ground, const Known& known, Cost& co
 // shrinks with it.
 void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
                     std::vector<NextCandidate>& all) {
-  constexpr double kStep = 1.4142135623730951;  // four times the core time
+  constexpr double kStep = std::numbers::sqrt2;  // four times the core time, which goes with f⁻⁴
   const double finest = ground.view.spec.coarse_graining.Levels().back();
   if (finest <= 1) return;
   const double finer = std::max(1.0, finest / kStep);
@@ -125,7 +126,7 @@ void AddNumbers(const Ground& ground, const optimizer::Posterior& posterior,
     std::vector<optimizer::Observation> told;
     for (const journal::TrialRecord& trial : campaign::InOrderOfFinish(view.trials)) {
       const auto value = trial.Metric(fallen);
-      if (trial.experiment != e || !campaign::IsOfSearch(trial) || !value) continue;
+      if (trial.experiment != e || !trial.IsOfSearch() || !value) continue;
       values.push_back(*value);
       told.push_back({.point = campaign::PointOf(trial),
                       .scale_factor = trial.scale_factor,

@@ -8,7 +8,6 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/name.h"
-#include "experiments/analysis/next/deck_gaps.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/validate_numbers.h"
 #include "experiments/rigs/load_case.h"
@@ -95,6 +94,7 @@ void ValidateAsAdded(const campaign::JointView& view, const TestCandidate& test,
 void TestCandidate::Validate(base::Problems& problems) const {
   base::RequireName(problems, "name", name);
   problems.RequireFromTo("runs", runs, 1, 1000);
+  problems.RequirePositive("mass", mass);
 }
 
 void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems& problems) {
@@ -134,6 +134,7 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
   only.device = is_tube ? UsualTube(view.spec) : rigs::MaterialsOf(*only.device);
   if (test.device) only.device = test.device;
   if (test.pairs) only.pairs = test.pairs;
+  if (test.mass) only.mass = test.mass;
   if (test.filling) only.filling = test.filling;
   if (test.rules) only.rules = test.rules;
   spec.experiment.reset();
@@ -150,7 +151,7 @@ std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
   if (problems.empty()) ValidateAsAdded(view, test, problems);
   try {
     problems.ThrowIfAny();
-    return WhyNotByDeck(view, TypicalOf(view, test));
+    return "";
   } catch (const base::ConfigError& error) {
     return error.what();
   }

@@ -20,6 +20,7 @@ struct TestCandidate {
   std::optional<rigs::RigOptions> rig{};
   std::optional<rigs::Device> device{};
   std::optional<std::vector<engine::PairSpec>> pairs{};
+  std::optional<double> mass{};  // filled [kg]
   std::optional<rigs::FillingRule> filling{};
   std::optional<rigs::PhaseRules> rules{};
   std::optional<imaging::Frame> frame{};  // default: of the lifted tube's plate; others have none
@@ -34,6 +35,9 @@ struct TestCandidate {
           {.doc = "tube and plate; default: those of the first lifted tube, else the campaign's"});
     visit("pairs", self.pairs,
           {.doc = "of the powder with its walls; default: the first experiment's"});
+    visit("mass", self.mass,
+          {.dimension = base::Dimension::kMass,
+           .doc = "filled, > 0; default: the first experiment's"});
     visit("filling", self.filling,
           {.doc = "how the powder gets in; default: the first experiment's"});
     visit("rules", self.rules, {.doc = "when each phase ends; default: the first experiment's"});

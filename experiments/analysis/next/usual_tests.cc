@@ -63,7 +63,7 @@ void AddPlates(const campaign::JointView& view, std::vector<TestCandidate>& test
       {.name = "rough plate", .rig = tube, .device = rough, .pairs = WithoutPlate(*first.pairs)});
 }
 
-rigs::RigOptions Of(rigs::RigKind kind) {
+rigs::RigOptions OptionsOfKind(rigs::RigKind kind) {
   rigs::RigOptions options;
   options.kind = kind;
   return options;
@@ -111,16 +111,16 @@ double LargestSimulated(const campaign::CampaignSpec& spec) {
 void AddFlows(const campaign::CampaignSpec& spec, double volume,
               std::vector<TestCandidate>& tests) {
   const double grain = LargestSimulated(spec);
-  rigs::RigOptions flow = Of(rigs::RigKind::kOrificeFlow);
+  rigs::RigOptions flow = OptionsOfKind(rigs::RigKind::kOrificeFlow);
   flow.orifice_flow.diameter = CylinderFor(volume);
   flow.orifice_flow.orifice = std::min(UpToMillimetre(6 * grain), 0.6 * flow.orifice_flow.diameter);
-  rigs::RigOptions heap = Of(rigs::RigKind::kFunnelHeap);
+  rigs::RigOptions heap = OptionsOfKind(rigs::RigKind::kFunnelHeap);
   heap.funnel_heap.plate_diameter = UpToMillimetre(std::cbrt(12 * volume));
   heap.funnel_heap.outlet =
       UpToMillimetre(std::max(0.1 * heap.funnel_heap.plate_diameter, 4 * grain));
   heap.funnel_heap.height = 0.75 * heap.funnel_heap.plate_diameter;
   heap.funnel_heap.rim_height = grain;
-  rigs::RigOptions drum = Of(rigs::RigKind::kDrum);
+  rigs::RigOptions drum = OptionsOfKind(rigs::RigKind::kDrum);
   drum.drum.diameter = UpToMillimetre(std::cbrt(40 * volume / std::numbers::pi));
   drum.drum.width = drum.drum.diameter / 4;
   drum.drum.speed = 30 * rigs::kRpm;
@@ -135,15 +135,15 @@ void AddFlows(const campaign::CampaignSpec& spec, double volume,
 // cell a quarter wider than high.
 void AddVessels(const campaign::CampaignSpec& spec, double volume,
                 std::vector<TestCandidate>& tests) {
-  rigs::RigOptions tapped = Of(rigs::RigKind::kTappedDensity);
+  rigs::RigOptions tapped = OptionsOfKind(rigs::RigKind::kTappedDensity);
   tapped.tapped_density.diameter = CylinderFor(volume);
-  rigs::RigOptions column = Of(rigs::RigKind::kColumnCollapse);
+  rigs::RigOptions column = OptionsOfKind(rigs::RigKind::kColumnCollapse);
   column.column_collapse.length = UpToMillimetre(std::cbrt(volume / 2));
   column.column_collapse.width = column.column_collapse.length;
-  rigs::RigOptions box = Of(rigs::RigKind::kTiltingBox);
+  rigs::RigOptions box = OptionsOfKind(rigs::RigKind::kTiltingBox);
   box.tilting_box.length = UpToMillimetre(std::cbrt(10 * volume));
   box.tilting_box.width = box.tilting_box.length / 2;
-  rigs::RigOptions cell = Of(rigs::RigKind::kShearCell);
+  rigs::RigOptions cell = OptionsOfKind(rigs::RigKind::kShearCell);
   cell.shear_cell.diameter = UpToMillimetre(std::cbrt(5 * volume / std::numbers::pi));
   cell.shear_cell.stresses = StressesFor(spec, cell.shear_cell.stresses);
   tests.push_back({.name = "tapped density", .rig = tapped, .filling = kPoured});

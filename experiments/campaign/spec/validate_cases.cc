@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -53,9 +54,9 @@ void AddToSpec(const CampaignSpec& spec, std::size_t e, const base::Problem& pro
   const std::string key = KeyInSpec(spec, e, problem.path);
   const bool is_shared = key == problem.path && spec.experiments;
   if (is_shared && std::ranges::count(problems.list(), key, &base::Problem::path) > 0) return;
-  const std::string of =
+  const std::string whose =
       is_shared ? " (in the experiment \"" + (*spec.experiments)[e].name + "\")" : "";
-  problems.Add({.path = key, .message = problem.message + of, .value = problem.value});
+  problems.Add({.path = key, .message = problem.message + whose, .value = problem.value});
 }
 
 // Whether the experiment's cases are in order, at every scale factor and point.
@@ -123,6 +124,7 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
                            ", must be 10 or more: their heap says nothing of the powder");
     }
   }
+  if (problems.empty()) CheckDeckTellsApart(spec, problems);
 }
 
 }  // namespace talus::campaign

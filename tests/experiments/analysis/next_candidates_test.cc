@@ -24,6 +24,7 @@ class NextCandidates : public NextFixture {};
 // The entry that `talus next` leaves for a test is one that `talus add-experiment` takes.
 TEST_F(NextCandidates, EntriesOfTestsHaveNamesThatAnExperimentMayHave) {
   const JointView view = Run();
+  ASSERT_FALSE(UsualTests(view).empty());
   for (const TestCandidate& test : UsualTests(view)) {
     EXPECT_THAT(ExperimentText(view, test), testing::Not(HasSubstr("/"))) << test.name;
   }
