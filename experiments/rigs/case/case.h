@@ -92,6 +92,7 @@ struct CaseOutputs {
 };
 
 // Largest Δt / t_R at which heaps were seen to be the same as at 0.15 (docs/validation.md) [-].
+inline constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
 inline constexpr double kUsualRayleighFraction = 0.30;
 
 // The whole of a case.json. Running it gives the same grains anywhere with one build.

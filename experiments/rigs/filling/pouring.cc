@@ -26,10 +26,8 @@ std::vector<double> DrawRadii(const Case& c) {
   return engine::Shuffled(std::move(radii), c.seed);
 }
 
-// Loose powders fill a vessel to a solid fraction of 0.4.
 double PouredHeight(const Case& c, const Vessel& vessel) {
-  constexpr double kLoose = 0.4;
-  return c.powder.mass / c.powder.material.density / (kLoose * vessel.area);
+  return c.powder.mass / c.powder.material.density / (kLooseSolidFraction * vessel.area);
 }
 
 double DropHeight(const Case& c, const Vessel& vessel) {

@@ -9,6 +9,8 @@
 
 namespace talus::rigs {
 
+inline constexpr double kLooseSolidFraction = 0.4;  // poured spheres have 0.55 to 0.6
+
 // Radii of the scaled grains, in the order in which they come [m].
 std::vector<double> DrawRadii(const Case& rig_case);
 

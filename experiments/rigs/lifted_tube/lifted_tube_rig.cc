@@ -162,14 +162,15 @@ std::vector<Reading> LiftedTubeRig::Readings(GrainSpan heap) const {
   const double on_plate = MassOf(heap);
   const double falling = MassOf(present) - on_plate;  // what is neither of the heap nor gone
   const auto num_falling = static_cast<double>(present.size() - heap.size());
+  const double true_grains = std::pow(rig_case().coarse_graining.scale_factor, 3);  // in one
   double height = 0;
   for (const Particle& p : heap) height = std::max(height, p.position.z + p.radius);
-  std::vector<Reading> all{
-      {Observable::kMassOnPlate, on_plate},
-      {Observable::kMassFallen, memory().mass_fallen + falling},
-      {Observable::kNumFallen, static_cast<double>(memory().num_fallen) + num_falling},
-      {Observable::kHeight, height},
-      {Observable::kBulkDensity, density * state().bed.solid_fraction}};
+  std::vector<Reading> all{{Observable::kMassOnPlate, on_plate},
+                           {Observable::kMassFallen, memory().mass_fallen + falling},
+                           {Observable::kNumFallen,
+                            true_grains * (static_cast<double>(memory().num_fallen) + num_falling)},
+                           {Observable::kHeight, height},
+                           {Observable::kBulkDensity, density * state().bed.solid_fraction}};
   for (Reading& angle : ReposeReadings(heap, {.diameter = rig_case().rig.lifted_tube.plate_diameter,
                                              .grain_diameter = MeanDiameter()})) {
     all.push_back(std::move(angle));

@@ -98,7 +98,7 @@ inline constexpr std::array kObservables = [] {
       {O::kMassFallen, "mass_fallen", Dimension::kMass, "Mass fallen",
        "of the powder that fell over the rim, or through the slot"},
       {O::kNumFallen, "num_fallen", Dimension::kNone, "Grains fallen",
-       "number of the grains that fell over the rim"},
+       "number of the true grains that fell over the rim; a coarse one stands for scale_factor^3"},
       {O::kMassLeft, "mass_left", Dimension::kMass, "Mass left",
        "of the powder that stayed above the slot, or left the tilted box"},
       {O::kBulkDensity,

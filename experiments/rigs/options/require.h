@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "base/problems.h"
+#include "base/units.h"
 
 namespace talus::rigs {
 
-inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 inline constexpr double kRpm = 2 * std::numbers::pi / 60;  // [rad/s]
 inline constexpr double kLargestLength = 2;                // [m]
 

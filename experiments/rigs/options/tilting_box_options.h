@@ -15,8 +15,8 @@ struct TiltingBoxOptions {
   double width = 0.015;  // [m], > 0
   // At its lower end [m], >= 0; default: as high as the powder needs.
   std::optional<double> lip_height{};
-  double rate = 10 * kDegree;           // of tilting [rad/s], > 0
-  double largest_angle = 60 * kDegree;  // where it ends at the latest [rad], in (0, π/2]
+  double rate = 10 * base::kDegree;           // of tilting [rad/s], > 0
+  double largest_angle = 60 * base::kDegree;  // where it ends at the latest [rad], in (0, π/2]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

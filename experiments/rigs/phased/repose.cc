@@ -13,13 +13,18 @@ namespace {
 
 constexpr double kPixelsPerGrain = 5;
 constexpr int kMostPixels = 2000;  // across
+constexpr double kLowest = 2;      // grains: a layer of single ones has no slope
 
-// The whole plate and as much above it as the heap is high, with a margin.
-imaging::Frame FrameOf(std::span<const engine::Particle> heap, const RoundPlate& plate) {
-  constexpr double kMargin = 0.1;  // of the plate's diameter, on each side
-  const double width = (1 + 2 * kMargin) * plate.diameter;
+double TopOf(std::span<const engine::Particle> heap) {
   double top = 0;
   for (const engine::Particle& p : heap) top = std::max(top, p.position.z + p.radius);
+  return top;
+}
+
+// The whole plate and as much above it as the heap is high, with a margin.
+imaging::Frame FrameOf(double top, const RoundPlate& plate) {
+  constexpr double kMargin = 0.1;  // of the plate's diameter, on each side
+  const double width = (1 + 2 * kMargin) * plate.diameter;
   imaging::Frame frame{
       .pixel_size = std::max(plate.grain_diameter / kPixelsPerGrain, width / kMostPixels),
       .plate_diameter = plate.diameter};
@@ -44,7 +49,8 @@ Reading ReadingOf(Observable observable, const imaging::Metric& metric) {
 
 std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
                                     const RoundPlate& plate) {
-  const imaging::Frame frame = FrameOf(heap, plate);
+  const double top = TopOf(heap);
+  const imaging::Frame frame = FrameOf(top, plate);
   imaging::HeapImages images;
   images.parts = imaging::ProjectViews(SpheresOf(heap), frame, imaging::kDefaultViews);
   images.profile = {.image = imaging::MeanImage(images.parts), .frame = frame};
@@ -58,6 +64,9 @@ std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
   std::vector<Reading> readings;
   for (const auto& [observable, name] : kMethods) {
     readings.push_back(ReadingOf(observable, imaging::FindMetric(metrics, name)));
+    const bool is_angle = observable != Observable::kStaticCohesiveIndex;
+    if (!is_angle || heap.empty() || top > kLowest * plate.grain_diameter) continue;
+    readings.back() = {.observable = observable, .undefined = "the heap is not two grains high"};
   }
   return readings;
 }

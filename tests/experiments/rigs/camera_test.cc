@@ -116,11 +116,11 @@ TEST(Camera, AFilmsPicturesAreThoseOfItsTimes) {
     still.rig.camera = {.frames = 2, .interval = 0.005, .start = c.rig.camera->BeginOf(i)};
     const auto run = Ran(still);
     const Pictures pictures = PicturesOf(run->state().camera, *c.frame, *still.rig.camera);
-    const auto of = [&](const imaging::GrayImage& image) {
+    const auto picture_of = [&](const imaging::GrayImage& image) {
       return imaging::PictureOf({.image = image, .frame = ProfileFrameOf(c)}, i).image;
     };
-    EXPECT_EQ(of(strip.profile), pictures.profile);
-    EXPECT_EQ(of(strip.standard_deviation), pictures.standard_deviation);
+    EXPECT_EQ(picture_of(strip.profile), pictures.profile);
+    EXPECT_EQ(picture_of(strip.standard_deviation), pictures.standard_deviation);
     cohesive += Value(still, *run, "cohesive_index_m") / 3;
   }
   EXPECT_NEAR(Value(c, *film, "cohesive_index_m"), cohesive, 1e-12);  // rounding

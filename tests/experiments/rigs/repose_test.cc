@@ -55,6 +55,23 @@ TEST(Repose, OfAConeEveryMethodIsItsAngle) {
   }
 }
 
+// A few grains that stayed on the plate had one of 72°.
+TEST(Repose, ALayerOfSingleGrainsHasNoAngle) {
+  std::vector<engine::Particle> layer;
+  for (int i = -10; i <= 10; ++i) {
+    for (int j = -10; j <= 10; ++j) {
+      layer.push_back({.radius = kGrain / 2, .position = {i * kGrain, j * kGrain, kGrain / 2}});
+    }
+  }
+  const RoundPlate plate{.diameter = kPlate, .grain_diameter = kGrain};
+  for (const Reading& reading : ReposeReadings(layer, plate)) {
+    const bool is_angle = reading.observable != Observable::kStaticCohesiveIndex;
+    EXPECT_EQ(reading.undefined, is_angle ? "the heap is not two grains high" : reading.undefined);
+  }
+  layer.push_back({.radius = kGrain / 2, .position = {0, 0, 2 * kGrain}});
+  EXPECT_EQ(ReposeReadings(layer, plate)[3].undefined, "");
+}
+
 TEST(Repose, OfNoHeapThereIsNoAngle) {
   for (const Reading& reading :
        ReposeReadings({}, {.diameter = kPlate, .grain_diameter = kGrain})) {
