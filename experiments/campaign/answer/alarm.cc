@@ -5,6 +5,7 @@
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"
@@ -51,17 +52,20 @@ std::string PriorOf(const Alarm& a) {
   return a.parameter ? "the prior of " + *a.parameter + ", " : "";
 }
 
+MeasurementFit MeasurementOf(const Alarm& a) {
+  return {.experiment = a.experiment.value_or(""), .number = a.number.value_or("")};
+}
+
 // "… misses the shape of "drum" by 5.1 times the noise floor, 11 % of the powder's area"
 std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
   if (a.undefined) {
-    text += rigs::SpokenName(a.number.value_or("")) + " of " + Quoted(a.experiment) +
-            ": simulated with it there is none (" + *a.undefined + ")";
+    text += SpokenOf(MeasurementOf(a)) + ": simulated with it there is none (" + *a.undefined + ")";
   } else if (a.number) {
-    text += rigs::SpokenName(*a.number) + " of " + Quoted(a.experiment) + " by " +
-            base::PlainNumber(a.value.value_or(0), 2) + " standard errors";
+    text += SpokenOf(MeasurementOf(a)) + " by " + base::PlainNumber(a.value.value_or(0), 2) +
+            " standard errors";
   } else {
-    text += "the shape of " + Quoted(a.experiment) + " by ";
+    text += SpokenOf(MeasurementOf(a)) + " by ";
     if (a.value) text += base::PlainNumber(*a.value, 2) + " times the noise floor";
     if (a.share) {
       text += (a.value ? ", " : "") + base::InPercent(*a.share) + " % of the powder's area";
@@ -152,8 +156,8 @@ std::string AlarmText(const Alarm& a) {
              " % lay within its 90 % regions; the ranges are widened by " +
              base::PlainNumber(a.widened.value_or(1), 2) +
              " for it; more simulations would sharpen it (" + ResumeCommand(kMoreSimulations) + ")";
-    default:  // a photograph's, in the words of its measurement
-      return a.reason.value_or("");
+    default:  // a photograph's, in the words of its measurement, which name the photograph if any
+      return (a.photo || !a.experiment ? "" : experiment + ": ") + a.reason.value_or("");
   }
 }
 

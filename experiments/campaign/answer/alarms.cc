@@ -7,7 +7,6 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
-#include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "optimizer/search/describe_minimum.h"
 
@@ -87,7 +86,7 @@ const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>
                                          double scale_factor) {
   const journal::TrialRecord* best = nullptr;
   for (const journal::TrialRecord& trial : trials) {
-    if (!IsOfSearch(trial) || trial.experiment != experiment || trial.scale_factor != scale_factor)
+    if (!trial.IsOfSearch() || trial.experiment != experiment || trial.scale_factor != scale_factor)
       continue;
     if (trial.status != journal::TrialStatus::kOk || !reference.Value(trial)) continue;
     if (best == nullptr || *reference.Value(trial) < *reference.Value(*best)) best = &trial;
@@ -125,9 +124,9 @@ const ResultCandidate* NearerSet(const Answer& answer) {
   const auto& all = answer.confirmed;
   if (all.empty()) return nullptr;
   const ResultCandidate* nearest = nullptr;
-  double least = kClearly * FarthestMiss(answer, all.front());
+  double least = kClearly * FarthestMiss(answer, all.front()).off;
   for (const ResultCandidate& candidate : all) {
-    const double miss = FarthestMiss(answer, candidate);
+    const double miss = FarthestMiss(answer, candidate).off;
     if (!(miss < least)) continue;
     nearest = &candidate;
     least = miss;

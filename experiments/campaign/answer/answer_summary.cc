@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/rigs/observables/shown_number.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 namespace {
@@ -71,16 +72,22 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   return text;
 }
 
-std::string NumbersText(const ResultExperiment& experiment, const ResultConfirmed* confirmed) {
+std::string NumbersText(const ResultExperiment& experiment, const ResultStanding* standing,
+                        const ResultConfirmed* confirmed) {
   std::string text;
   for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
     const ResultNumber& n = experiment.numbers[i];
     text += (text.empty() ? "" : "; ") + rigs::SpokenName(n.name);
+    if (standing != nullptr && i < standing->numbers.size() &&
+        std::isfinite(standing->numbers[i].predicted)) {
+      text += " predicted " + rigs::ShownNumber(n.name, standing->numbers[i].predicted) + " ± " +
+              rigs::ShownNumber(n.name, standing->numbers[i].predicted_sd, 2) + ",";
+    }
     if (confirmed != nullptr) {
       const ResultScalar& simulated = confirmed->scalars.at(i);
       text += " " +
               (simulated.undefined ? "has no value (" + *simulated.undefined + ")"
-                                   : rigs::ShownNumber(n.name, simulated.mean)) +
+                                   : "confirmed " + rigs::ShownNumber(n.name, simulated.mean)) +
               ",";
     }
     text += " measured " + rigs::ShownNumber(n.name, n.value) + " ± " +
@@ -105,11 +112,12 @@ std::string ExperimentLines(const Answer& answer) {
   for (const ResultExperiment& e : answer.experiments) {
     const ResultConfirmed* confirmed = ConfirmedOf(answer, e.name);
     const std::string objective = ObjectiveText(answer, e, confirmed);
-    const std::string numbers = NumbersText(e, confirmed);
+    const ResultStanding* standing = StandingOf(answer, e.name);
+    const std::string numbers = NumbersText(e, standing, confirmed);
     std::string line = objective + (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
     if (line.empty()) line = "not simulated again";
     text += "  " + Padded(e.name + "  ", 18) + line;
-    if (const ResultStanding* standing = StandingOf(answer, e.name)) {
+    if (standing != nullptr) {
       text += "; implausibility " + base::PlainNumber(standing->implausibility, 2) +
               ModelErrorText(*standing);
     }
@@ -150,7 +158,7 @@ std::string ConfirmedLines(const Answer& answer) {
         text += "; " + e.name + " " + base::ShortNumber(value) + " " + answer.objective_unit;
       }
     }
-    if (i > 0 && Misses(answer, c)) text += "; misses";
+    if (i > 0 && Misses(answer, c)) text += "; misses " + SpokenOf(FarthestMiss(answer, c));
     text += "\n";
   }
   return text;
@@ -213,11 +221,12 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
   }
   text += "  holds for         " + LawsText(r.conditions) + "\n";
   for (const ResultDevice& device : r.conditions.devices) {
-    text += "                    " + device.experiment + ", " + device.text + "\n";
+    const bool says_it = device.text.starts_with(device.experiment + ":");  // "funnel heap: …"
+    text += "                    " + (says_it ? "" : device.experiment + ", ") + device.text + "\n";
   }
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
           std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
-          " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";
+          " core hours, " + trials::DurationText(r.cost.elapsed) + " elapsed\n";
   text += ReusedLines(r.reused);
   text += "  model             " + r.model + "\n";
   for (const Alarm& alarm : r.warnings) text += "  warning: " + AlarmText(alarm) + "\n";

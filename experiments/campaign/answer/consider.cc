@@ -14,6 +14,7 @@
 #include "base/text/plain_number.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 
@@ -204,7 +205,7 @@ std::string ConsideredText(const ConsideredSet& c) {
   if (!c.credible_level) {
     text += "  credible level    not known yet: too few trials\n";
   } else {
-    const bool inside = *c.credible_level <= 0.9;
+    const bool inside = *c.credible_level <= optimizer::kRegionLevel;
     text += "  credible level    " + base::ShortNumber(*c.credible_level) + ": " +
             (inside ? "inside" : "outside") + " the joint 90 % region\n";
     if (IsProvisional(c.surrogate_narrowing)) {

@@ -75,7 +75,7 @@ std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
   const auto text = texts.find(parameter.name);
   if (text == texts.end() || summary.prior_draws.rows() == 0) return std::nullopt;
   const auto k = static_cast<Eigen::Index>(i);
-  const optimizer::Range range = optimizer::CredibleRanges(summary.prior_draws.col(k), 0.9).front();
+  const optimizer::Range range = optimizer::CredibleRanges(summary.prior_draws.col(k)).front();
   return ResultPrior{.text = text->second,
                      .low = parameter.ToNative(range.low),
                      .high = parameter.ToNative(range.high),

@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "base/student_factor.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/outputs/levels.h"
 
 namespace talus::campaign {
 namespace {
 
-constexpr double kCloseNumber = 2;  // standard errors
 constexpr double kNoChance =
     0.99;                        // of the measurements that a set gives are not said to be missed
 constexpr double kFarImage = 3;  // standard errors: SADs are skewed (tests count 1 in 100)
@@ -171,25 +171,34 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate) {
   return false;
 }
 
-double FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
-  double farthest = kNotKnown;
-  const auto add = [&](double off) { farthest = std::fmax(farthest, off); };
+MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
+  MeasurementFit farthest;
   for (const ResultConfirmed& confirmed : candidate.experiments) {
+    const auto add = [&](const std::string& number, double off) {
+      if (!std::isnan(off) && !(off <= farthest.off))
+        farthest = {.experiment = confirmed.name, .number = number, .off = off};
+    };
     const auto experiment =
         std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
     if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
     if (confirmed.over_floor) {
-      add(*confirmed.over_floor / kCloseRuns);
+      add("", *confirmed.over_floor / kCloseRuns);
     } else if (confirmed.profile_sad_mm2 && experiment->powder_area) {
-      add(SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
+      add("", SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
     }
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      add(confirmed.scalars.at(i).undefined
-              ? std::numeric_limits<double>::infinity()
-              : OffBy(experiment->numbers[i], confirmed.scalars[i]) / kCloseNumber);
+      const ResultNumber& measured = experiment->numbers[i];
+      add(measured.name, confirmed.scalars.at(i).undefined
+                             ? std::numeric_limits<double>::infinity()
+                             : OffBy(measured, confirmed.scalars[i]) / kCloseNumber);
     }
   }
   return farthest;
+}
+
+std::string SpokenOf(const MeasurementFit& fit) {
+  return (fit.number.empty() ? "the shape" : rigs::SpokenName(fit.number)) + " of \"" +
+         fit.experiment + "\"";
 }
 
 std::vector<MeasurementFit> FitsOf(const Answer& answer) {

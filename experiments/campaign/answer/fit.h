@@ -35,6 +35,7 @@ namespace talus::campaign {
 
 inline constexpr double kImplausible = 3;  // implausibility above which no set fits
 inline constexpr double kCloseRuns = 1.5;  // noise floors that fit: a simulation scatters, too
+inline constexpr double kCloseNumber = 2;  // standard errors that fit
 
 enum class Meets {
   kYes,     // within what the measurement itself leaves open
@@ -66,9 +67,12 @@ std::vector<MeasurementFit> FitsOf(const Answer& answer);
 // do, though chance may be to blame.
 bool Misses(const Answer& answer, const ResultCandidate& candidate);
 
-// Its farthest measurement, in what is still a fit: above 1 it misses; infinite where one does not
-// exist there. NaN with nothing to judge by.
-double FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
+// Its farthest measurement, how far `off` in what is still a fit: above 1 it misses; infinite where
+// one does not exist there. NaN with nothing to judge by.
+MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
+
+// "the shape of "heap"", "mass fallen of "wide plate"".
+std::string SpokenOf(const MeasurementFit& fit);
 
 // Error of the recommended set's confirmed objective. A few seeds that happen to agree say little
 // of it.

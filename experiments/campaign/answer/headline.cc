@@ -5,7 +5,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
-#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/rigs/observables/shown_number.h"
 
@@ -171,10 +171,26 @@ std::string KindText(const Told& told, VerdictKind kind) {
   return "That is a point";
 }
 
+// "the shape of "heap" and AOR 1 of "funnel heap"": farther off than a fit is, but few simulations
+// may be by chance.
+std::string LeftOpen(const Answer& answer) {
+  std::vector<std::string> open;
+  for (const MeasurementFit& fit : FitsOf(answer)) {
+    const double close = fit.number.empty() ? kCloseRuns : kCloseNumber;
+    if (fit.meets == Meets::kUnknown && fit.off > close) open.push_back(SpokenOf(fit));
+  }
+  return base::Listed(open);
+}
+
 std::string FitText(const Answer& answer) {
-  return answer.confirmed.empty()
-             ? "By the model sets fit every measurement; no simulation has confirmed one."
-             : "Sets are found that fit every measurement.";
+  if (answer.confirmed.empty()) {
+    return "By the model sets fit every measurement; no simulation has confirmed one.";
+  }
+  const std::string open = LeftOpen(answer);
+  if (open.empty()) return "Sets are found that fit every measurement.";
+  return "By the model sets fit every measurement; the few simulations that should confirm one do "
+         "not tell for " +
+         open + ".";
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ namespace {
 using optimizer::ExperimentModel;
 
 constexpr int kHoldOutDraws = 400;
-constexpr double kRegionMass = 0.9;
 
 // Draws of what would be measured: the simulated mean, its uncertainty and the measurement's error.
 PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::Moments& at,
@@ -94,7 +93,7 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   predicted.least_implausibility = predicted.implausibility;
   const Eigen::VectorXd levels = of_others->CredibleLevels(draws).value();
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if (levels[i] > kRegionMass) continue;
+    if (levels[i] > optimizer::kRegionLevel) continue;
     predicted.least_implausibility = std::min(
         predicted.least_implausibility, posterior.Implausibility(0, draws.row(i).transpose()));
   }

@@ -12,19 +12,18 @@
 #include "experiments/journal/objective.h"
 
 namespace talus::campaign {
-namespace {
 
-// A search by another objective than the spec's has a result of that one.
-void TakeObjectiveOf(const std::string& result_json, CampaignSpec& spec) {
-  if (result_json.empty()) return;
-  const std::string of_result = ParseAnswer(result_json).objective;
+CampaignSpec SpecOfAnswer(const journal::CampaignRecord& campaign,
+                          const journal::ProgressRecord& progress) {
+  CampaignSpec spec = ParseSpecText(campaign.spec_json);
+  if (progress.result_json.empty()) return spec;
+  const std::string of_result = ParseAnswer(progress.result_json).objective;
   for (const journal::ObjectiveInfo& info : journal::kObjectives) {
     if (of_result == info.ValueKey())
       spec.objective = *base::EnumNamed<journal::Objective>(info.key);
   }
+  return spec;
 }
-
-}  // namespace
 
 int JointView::IndexOf(std::string_view name) const {
   const auto& all = record.experiments;
@@ -50,7 +49,7 @@ std::vector<int> JointView::Answered() const {
 void JointView::Observe(
     const std::function<std::vector<float>(const journal::TrialRecord&)>& field) {
   for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
-    if (!IsOfSearch(trial)) continue;
+    if (!trial.IsOfSearch()) continue;
     observations.push_back(
         ObservationOf(trial, references[static_cast<std::size_t>(trial.experiment)], field(trial)));
   }
@@ -60,8 +59,7 @@ JointView ReadJointView(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
   journal::CampaignRecord record = journal.Campaign();
-  CampaignSpec spec = ParseSpecText(record.spec_json);
-  TakeObjectiveOf(journal.Progress().result_json, spec);
+  const CampaignSpec spec = SpecOfAnswer(record, journal.Progress());
   JointView view{.folder = folder,
                  .spec = spec,
                  .record = std::move(record),

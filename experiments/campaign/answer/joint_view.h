@@ -40,8 +40,12 @@ struct JointView {
   void Observe(const std::function<std::vector<float>(const journal::TrialRecord&)>& field);
 };
 
-// The campaign may be running. Its spec has the objective that the result is of, which may be
-// another than the one it was started with.
+// The spec with the objective that the result is of, which may be another than the one it was
+// started with.
+CampaignSpec SpecOfAnswer(const journal::CampaignRecord& campaign,
+                          const journal::ProgressRecord& progress);
+
+// The campaign may be running.
 JointView ReadJointView(const std::filesystem::path& folder);
 
 // Told what the trials of these experiments say, and nothing of others.

@@ -12,7 +12,7 @@ namespace {
 constexpr double kDetermined = 0.5;  // of the prior's 90 % range
 
 double PriorWidth(const ResultParameter& p) {
-  if (!p.prior) return 0.9;
+  if (!p.prior) return optimizer::kRegionLevel;  // of a flat one, that share of its range
   return p.Range().ToUnit(p.prior->high) - p.Range().ToUnit(p.prior->low);
 }
 

@@ -17,10 +17,10 @@ const ResultCandidate* Confirmed(const Answer& result, const Eigen::VectorXd& po
 }
 
 bool Fits(const RepresentativeBasis& basis, const journal::TrialRecord& trial) {
-  if (!IsOfSearch(trial) || trial.status != journal::TrialStatus::kOk) return false;
+  if (!trial.IsOfSearch() || trial.status != journal::TrialStatus::kOk) return false;
   if (trial.scale_factor != basis.finest) return false;
   const auto level = basis.planner.CredibleLevels(PointOf(trial).transpose());
-  return level && (*level)[0] <= kRegionLevel;
+  return level && (*level)[0] <= optimizer::kRegionLevel;
 }
 
 // Nothing where the search has simulated no set that stands for this end.

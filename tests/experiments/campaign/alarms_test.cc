@@ -282,6 +282,29 @@ TEST(Headline, SaysWhatIsNotDeterminedBeforeWhatIs) {
   EXPECT_THAT(sentences[3], HasSubstr("a region, not a point"));
 }
 
+// Measured twice, an angle may be anything by chance: "Sets are found that fit every measurement"
+// was said of 5° for 28°.
+TEST(Headline, WhatFewSimulationsLeaveOpenIsNoFit) {
+  Answer answer = ResultWithRanges(0.15, 9e-5);
+  answer.experiments = {
+      {.name = "funnel heap",
+       .numbers = {
+           {.name = "angle_of_repose_1_deg", .value = 28.5, .standard_error = 0.5, .degrees = 1}}}};
+  answer.confirmed.resize(1);
+  answer.confirmed[0].experiments = {{.name = "funnel heap",
+                                      .num_trials = 2,
+                                      .scalars = {{.name = "angle_of_repose_1_deg",
+                                                   .num_trials = 2,
+                                                   .mean = 4.8,
+                                                   .standard_error = 0.2,
+                                                   .degrees = 1}}}};
+  answer.posterior->experiments = {{.name = "funnel heap"}};
+  EXPECT_THAT(HeadlineText(answer),
+              HasSubstr("should confirm one do not tell for AOR 1 of \"funnel heap\"."));
+  answer.confirmed[0].experiments[0].scalars[0].mean = 29;
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("Sets are found that fit every measurement."));
+}
+
 TEST(Headline, SharesOfAllAndOfNearlyNothingAreReadable) {
   Answer answer = ResultWithRanges(0.95, 9e-5);
   answer.posterior->region_volume = 3e-7;

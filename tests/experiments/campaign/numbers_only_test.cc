@@ -134,7 +134,7 @@ TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   EXPECT_LE(result.parameters[1].credible_low, kTrueRolling);
   EXPECT_GE(result.parameters[1].credible_high, kTrueRolling);
   EXPECT_EQ(result.confirmed.at(0).experiments.at(0).num_trials, 2);
-  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("tapped density 1"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("tapped density predicted 1"));
   EXPECT_THAT(AnswerSummary(result, "runs/heap"), ::testing::Not(HasSubstr("nan")));
   EXPECT_THAT(StatusText(folder), HasSubstr("numbers only"));
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
