@@ -12,7 +12,6 @@
 #include "experiments/campaign/spec/parameter_names.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 
 namespace talus::analysis {

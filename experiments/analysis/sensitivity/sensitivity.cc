@@ -18,14 +18,28 @@ bool AnswerShift::Exceeds() const {
   return std::abs(half_ranges) > 1 && std::abs(half_ranges) > kSure * half_ranges_error;
 }
 
-bool AnswerShift::IsTold() const {
-  return Exceeds() || std::abs(half_ranges) + kSure * half_ranges_error <= 1;
+bool AnswerShift::IsWithin() const {
+  return std::abs(half_ranges) + kSure * half_ranges_error <= 1;
 }
 
-bool FixedMove::Exceeds() const { return std::ranges::any_of(answer, &AnswerShift::Exceeds); }
+bool FixedMove::IsByChance() const {
+  return !outputs.empty() && std::ranges::none_of(outputs, [](const OutputShift& output) {
+    return std::abs(output.shift) > output.noise;
+  });
+}
+
+bool FixedMove::Exceeds(const AnswerShift& shift) const { return shift.Exceeds() && !IsByChance(); }
+
+bool FixedMove::Exceeds() const {
+  return std::ranges::any_of(answer, [&](const AnswerShift& shift) { return Exceeds(shift); });
+}
+
+bool FixedMove::IsTold(const AnswerShift& shift) const {
+  return Exceeds(shift) || shift.IsWithin();
+}
 
 bool FixedMove::IsTold() const {
-  return !why_not.empty() || Exceeds() || std::ranges::all_of(answer, &AnswerShift::IsTold);
+  return !why_not.empty() || Exceeds() || std::ranges::all_of(answer, &AnswerShift::IsWithin);
 }
 
 double FixedMove::MostHalfRanges() const {

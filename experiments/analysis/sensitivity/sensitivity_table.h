@@ -43,8 +43,7 @@ struct AnswerShift {
   TALUS_FIELDS(parameter, from, to, standard_error, low, high, half_ranges, half_ranges_error);
   // Beyond half of the range, and not by chance.
   bool Exceeds() const;
-  // Whether more simulations would not change what Exceeds says.
-  bool IsTold() const;
+  bool IsWithin() const;  // half of the range, and not by chance
 };
 
 struct FixedMove {
@@ -64,8 +63,14 @@ struct FixedMove {
   static constexpr base::FieldKey kKeys[] = {{"implausibility", "implausibility_sd"}};
   TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, moves_still, why_not,
                why_not_followed, outputs, answer, implausibility);
-  bool Exceeds() const;  // any parameter
-  bool IsTold() const;   // all parameters
+  // Whether every output shifts by no more than simulations scatter. Where the region is wide, the
+  // answer may then jump within it, and the move is not to blame.
+  bool IsByChance() const;
+  bool Exceeds(const AnswerShift& shift) const;  // … of this move, and the move's own doing
+  bool Exceeds() const;                          // any parameter
+  // Whether more simulations would not change what Exceeds says.
+  bool IsTold(const AnswerShift& shift) const;
+  bool IsTold() const;
   double MostHalfRanges() const;
   bool FitsNoSet() const;  // as `implausible` alarms count it
 };

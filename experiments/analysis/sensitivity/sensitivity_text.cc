@@ -43,12 +43,12 @@ std::string OutputsText(const FixedMove& move, bool many_experiments) {
 }
 
 std::string AnswerText(const FixedMove& move) {
-  return base::Joined(move.answer, ", ", [](const AnswerShift& shift) {
+  return base::Joined(move.answer, ", ", [&](const AnswerShift& shift) {
     return shift.parameter + " " + PlusMinus(shift.to, shift.standard_error) +
            RangeText(shift.low, shift.high) +
-           (shift.Exceeds()  ? " (!)"
-            : shift.IsTold() ? ""
-                             : " (?)");
+           (move.Exceeds(shift)  ? " (!)"
+            : move.IsTold(shift) ? ""
+                                 : " (?)");
   });
 }
 
@@ -84,7 +84,7 @@ std::vector<std::string> SensitivityAlarms(const SensitivityTable& table) {
   std::vector<std::string> alarms;
   for (const FixedMove& move : table.moves) {
     for (const AnswerShift& shift : move.answer) {
-      if (!shift.Exceeds()) continue;
+      if (!move.Exceeds(shift)) continue;
       alarms.push_back(MoveText(move) + " would move " + shift.parameter + " from " +
                        ShortNumber(shift.from, 3) + " to " +
                        PlusMinus(shift.to, shift.standard_error) +

@@ -92,6 +92,20 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
               HasSubstr("ALARM  restitution 0.6 in place of 0.9 would move rolling_friction"));
 }
 
+// The answer jumped within a wide region, and a move that no output had felt was blamed for it.
+TEST(Sensitivity, WhatOutputsDoNotFeelMovesNoAnswer) {
+  FixedMove move{
+      .name = "youngs_modulus",
+      .outputs = {{.experiment = "heap", .output = "image", .shift = 0.67, .noise = 1.2},
+                  {.experiment = "heap", .output = "angle", .shift = -0.16, .noise = 1.3}},
+      .answer = {{.parameter = "sliding_friction", .half_ranges = 1.3, .half_ranges_error = 0.2}}};
+  EXPECT_FALSE(move.Exceeds());
+  EXPECT_FALSE(move.IsTold());
+  move.outputs[1].shift = -2.6;
+  EXPECT_TRUE(move.Exceeds());
+  EXPECT_TRUE(move.IsTold());
+}
+
 // μ_r (1 + 2 (0.9 - e)) = 0.2: the shift is 0.12 at μ_r = 0.2, which would lead to 0.08, and 0.075
 // at the answer, 0.125. The campaign has few trials there, and sets of another μ_t would fit as
 // far as it knows: what is simulated there says that they do not.

@@ -180,19 +180,20 @@ PageValue PredictionJson(const PredictionView& view) {
 }
 
 PageValue SensitivityJson(const SensitivityView& view) {
-  const auto shift = [](const AnswerShift& s) {
+  const auto shift = [](const FixedMove& m, const AnswerShift& s) {
     return PageValue{{"to", NumberJson(s.to)},   {"error", NumberJson(s.standard_error)},
                      {"low", NumberJson(s.low)}, {"high", NumberJson(s.high)},
-                     {"exceeds", s.Exceeds()},   {"told", s.IsTold()}};
+                     {"exceeds", m.Exceeds(s)},  {"told", m.IsTold(s)}};
   };
   const auto move = [&](const FixedMove& m) {
-    return PageValue{{"name", m.name},
-                     {"from", m.from},
-                     {"to", m.to},
-                     {"why_not", m.why_not},
-                     {"fits_no_set", m.FitsNoSet() && !view.table.FitsNoSet()},
-                     {"moves_still", m.moves_still},
-                     {"answer", ListJson(m.answer, shift)}};
+    return PageValue{
+        {"name", m.name},
+        {"from", m.from},
+        {"to", m.to},
+        {"why_not", m.why_not},
+        {"fits_no_set", m.FitsNoSet() && !view.table.FitsNoSet()},
+        {"moves_still", m.moves_still},
+        {"answer", ListJson(m.answer, [&](const AnswerShift& s) { return shift(m, s); })}};
   };
   return {{"outdated", view.is_outdated},
           {"scale_factor", NumberJson(view.table.scale_factor)},
