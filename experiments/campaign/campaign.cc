@@ -105,14 +105,14 @@ bool Campaign::IsGoalDue() const {
   std::int64_t ended = 0;
   bool searches = false;
   for (const journal::TrialRecord& trial : planner_.trials()) {
-    ended += IsOfSearch(trial) && trial.status != journal::TrialStatus::kRunning;
+    ended += trial.IsOfSearch() && trial.status != journal::TrialStatus::kRunning;
     searches |= trial.kind == journal::TrialKind::kSearch;
   }
   return searches && ended >= NextLook(planner_.goal(), spec_);
 }
 
 bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
-  const auto ended = std::ranges::count_if(planner_.trials(), IsOfSearch);
+  const auto ended = std::ranges::count_if(planner_.trials(), &journal::TrialRecord::IsOfSearch);
   const auto state = parts_.goal->Look(ended, interrupt);
   NoteElapsed();
   if (!state) return false;
@@ -352,7 +352,7 @@ void Campaign::NoteElapsed() {
 
 void Campaign::NoteBest(const journal::TrialRecord& trial) {
   const auto value = ReferenceOf(trial).Value(trial);
-  if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial) || !value) return;
+  if (trial.status != journal::TrialStatus::kOk || !trial.IsOfSearch() || !value) return;
   // Objectives of different experiments or grain sizes do not compare.
   if (trial.experiment != 0 || trial.scale_factor != spec_.coarse_graining.scale_factor) return;
   if (!best_ || *value < best_->first) best_ = {*value, trial.id};

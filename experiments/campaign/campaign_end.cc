@@ -52,7 +52,8 @@ KeptProgress Campaign::ProgressSoFar() const {
   const std::optional<Stop>& stop = planner_.stop();
   const bool has_ended = running_.empty() && waiting_.empty() && stop;
   return {.elapsed_s = Elapsed(),
-          .num_of_search = static_cast<int>(std::ranges::count_if(planner_.trials(), IsOfSearch)),
+          .num_of_search = static_cast<int>(
+              std::ranges::count_if(planner_.trials(), &journal::TrialRecord::IsOfSearch)),
           .stop_json = has_ended && stop->kind != StopKind::kAllFailed
                            ? base::JsonTextWriter::TextOf(*stop)
                            : stop_json_};

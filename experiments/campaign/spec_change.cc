@@ -9,7 +9,6 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/mended_engine.h"
 #include "experiments/campaign/plan/core_time.h"
-#include "experiments/campaign/record/stored.h"
 
 namespace talus::campaign {
 namespace {
@@ -131,7 +130,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
 double UsualCoreTime(const CampaignSpec& spec, const std::vector<journal::TrialRecord>& trials) {
   CoreTime core_time(spec);
   const double sum = core_time.OfSearch(trials);
-  const auto num = std::ranges::count_if(trials, IsPaidFor);
+  const auto num = std::ranges::count_if(trials, &journal::TrialRecord::IsPaidFor);
   return num > 0 ? sum / static_cast<double>(num)
                  : core_time.OfOne(0, spec.coarse_graining.scale_factor);
 }
@@ -140,8 +139,10 @@ double UsualCoreTime(const CampaignSpec& spec, const std::vector<journal::TrialR
 // not keeps its budget, larger by what so many take.
 void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
   const std::vector<journal::TrialRecord> trials = journal.Trials();
-  const auto num_search = static_cast<int>(std::ranges::count_if(trials, IsPaidFor));
-  const auto num_told = static_cast<int>(std::ranges::count_if(trials, IsOfSearch));
+  const auto num_search =
+      static_cast<int>(std::ranges::count_if(trials, &journal::TrialRecord::IsPaidFor));
+  const auto num_told =
+      static_cast<int>(std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch));
   const journal::ProgressRecord progress = journal.Progress();
   const bool ended = progress.state == "finished" || !progress.stop_json.empty();
   BudgetOptions& budget = change.spec.budget;

@@ -55,7 +55,7 @@ void AddImages(const ExperimentSpec& spec, const rigs::Case& rig_case,
   }
   if (auto doubt = MoreThanFilled(rig_case, experiment.aehp)) record.warnings.push_back(*doubt);
   for (const journal::PhotoWarningRecord& warning : record.warnings) {
-    std::cerr << "warning: experiment: " << warning.text << '\n';
+    std::cerr << "warning: experiment \"" << spec.name << "\": " << warning.text << '\n';
   }
   record.aehp_png = imaging::EncodePng(experiment.aehp.image);
   if (!experiment.standard_deviation.pixels.empty()) {

@@ -11,6 +11,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/plan/budget_use.h"
@@ -59,7 +60,7 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
   const journal::TrialRecord* best = nullptr;
   double best_value = 0;
   for (const journal::TrialRecord& trial : trials) {
-    if (!kind.Is(trial) || !IsOfSearch(trial)) continue;
+    if (!kind.Is(trial) || !trial.IsOfSearch()) continue;
     const auto value = reference.Value(trial);
     if (!value || (best && *value >= best_value)) continue;
     best = &trial;
@@ -77,9 +78,9 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
   for (std::size_t e = 0; e < references.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       const Kind kind{.experiment = static_cast<int>(e), .scale_factor = factor};
-      const auto count =
-          std::count_if(trials.begin(), trials.end(),
-                        [&](const journal::TrialRecord& t) { return kind.Is(t) && IsOfSearch(t); });
+      const auto count = std::count_if(
+          trials.begin(), trials.end(),
+          [&](const journal::TrialRecord& t) { return kind.Is(t) && t.IsOfSearch(); });
       text += "  " + campaign.experiments[e].name + " at scale factor " +
               base::ShortNumber(factor) + ": " + std::to_string(count) + " trials, best " +
               BestLine(trials, campaign, references[e], kind);
@@ -165,7 +166,7 @@ std::string StatusText(const std::filesystem::path& root) {
   const journal::CampaignRecord campaign = journal.Campaign();
   const journal::ProgressRecord progress = journal.Progress();
   const std::vector<journal::TrialRecord> trials = journal.Trials();
-  const CampaignSpec spec = ParseSpecText(campaign.spec_json);
+  const CampaignSpec spec = SpecOfAnswer(campaign, progress);
   const Counts counts(trials);
   const bool alive = IsWorkedOn(folder.root);
 

@@ -25,7 +25,7 @@ Numbers NextOf(const std::vector<journal::TrialRecord>& trials) {
   for (const journal::TrialRecord& trial : trials) {
     next.id = std::max(next.id, trial.id + 1);
     next.due = std::max(next.due, trial.due);
-    if (!IsOfSearch(trial)) continue;
+    if (!trial.IsOfSearch()) continue;
     next.set = std::max(next.set, trial.set + 1);
     if (trial.kind == journal::TrialKind::kDesign || trial.kind == journal::TrialKind::kSearch) {
       ++next.kind_index;

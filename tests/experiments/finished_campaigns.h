@@ -30,7 +30,8 @@ class FinishedCampaigns {
 
  private:
   struct Campaign {
-    Campaign(const Key& of, const std::string& purpose) : key(of), folder(purpose) {}
+    Campaign(const Key& campaign_key, const std::string& purpose)
+        : key(campaign_key), folder(purpose) {}
     Key key;
     ScratchFolder folder;
   };

@@ -166,7 +166,7 @@ campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::Vec
                       .value = -0.91}};
   if (truth.size() == 2) answer.correlation = {{1, -0.93}, {-0.93, 1}};
   std::vector<optimizer::Range> ranges;
-  if (evidence.model) ranges = optimizer::CredibleRanges(evidence.model->draws, 0.9);
+  if (evidence.model) ranges = optimizer::CredibleRanges(evidence.model->draws);
   campaign::ResultCandidate confirmed;
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);

@@ -109,9 +109,8 @@ Eigen::MatrixXd ScaledDraws(const Batch& batch, const Batch& first) {
 }
 
 BatchTogether TogetherOf(const Batch& first, const Batch& batch) {
-  constexpr double kLevel = 0.9;
   const double level = LevelOfNone(ScaledDraws(batch, first) - ScaledDraws(first, first));
-  return {.batch = batch.view.folder.root.string(), .level = level, .is_found = level > kLevel};
+  return {batch.view.folder.root.string(), level, level > optimizer::kRegionLevel};
 }
 
 std::vector<std::string> NamesOf(const Batch& batch) {

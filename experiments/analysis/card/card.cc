@@ -19,7 +19,6 @@
 #include "experiments/journal/journal.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
-#include "experiments/rigs/load_case.h"
 #include "experiments/trials/engines/command_case.h"
 #include "optimizer/space/point_rows.h"
 

@@ -74,11 +74,16 @@ Scatter PooledScatter(const std::vector<Measurement>& measured) {
   return {.sd = std::sqrt(squares / freedom), .freedom = freedom};
 }
 
-// Two heaps that happen to be alike, all that a campaign may have simulated again, would leave next
-// to no scatter: of so few a model's has a say, where there is one.
+// Two heaps that happen to be alike, all that a campaign may have simulated again, leave next to no
+// scatter.
+bool AreFew(const Scatter& repeats) {
+  constexpr double kFew = 4;  // degrees of freedom
+  return repeats.freedom < kFew;
+}
+
+// Where repeats are few, the model's scatter has a say.
 double ScatterWith(const Scatter& repeats, double of_model) {
-  constexpr double kFew = 4;
-  if (repeats.freedom >= kFew || std::isnan(of_model)) return repeats.sd;
+  if (!AreFew(repeats) || std::isnan(of_model)) return repeats.sd;
   return repeats.freedom > 0 ? std::max(repeats.sd, of_model) : of_model;
 }
 
@@ -185,7 +190,8 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
   double of_model = ScatterOfAnswer(evidence, info);
   const Eigen::VectorXd start = sets.front().point;
   std::optional<ObjectiveModel> model;
-  if (with_model && sets.size() >= ObjectiveModel::kFewestPoints) {
+  const bool is_asked = with_model || (AreFew(repeats) && std::isnan(of_model));
+  if (is_asked && sets.size() >= ObjectiveModel::kFewestPoints) {
     std::vector<ModelPoint> points;
     for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
     model = ObjectiveModel::Fit(points, start, info, finding.reference);
@@ -193,7 +199,7 @@ ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool w
   }
   finding.noise_sd = ScatterWith(repeats, of_model);
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
-  if (model) {
+  if (model && with_model) {
     finding.from_model = FindFromModel(evidence, *model, start, finding.margin());
     finding.from_model->withheld =
         WhyWithheld(*finding.from_model, info.is_distance, finding.noise_sd);

@@ -59,8 +59,7 @@ struct ObjectiveFinding {
 // Findings for CriteriaOf, in their order.
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence);
 
-// The same from the trials alone. Without repeated sets the scatter is not known, and then nothing
-// is said of ties.
+// The same without what the models call best. The scatter, and so what ties, is the same.
 std::vector<ObjectiveFinding> CompareTrials(const Evidence& evidence);
 
 }  // namespace talus::analysis

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "imaging/formats/images/image_file.h"
+#include "imaging/gray_image.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::analysis {

@@ -22,6 +22,7 @@
 namespace talus::analysis {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kSidesOf90 = 1.645;  // sd on each side of a normal distribution's 90 %
 
 struct ParameterInfo {
   optimizer::Parameter range;  // name, low, high, scale
@@ -86,7 +87,7 @@ struct ObjectiveKnowledge {
   int num_holding = 0;              // refits without some trials whose region holds that set
   int num_refits = 0;               // … of so many
 
-  bool Holds() const { return level <= 0.9; }
+  bool Holds() const { return level <= optimizer::kRegionLevel; }
 };
 
 struct NamedText {

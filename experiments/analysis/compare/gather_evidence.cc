@@ -102,7 +102,7 @@ double FinestOfSearch(const std::vector<journal::TrialRecord>& trials) {
   double finest = std::numeric_limits<double>::infinity();
   for (const journal::TrialRecord& t : trials) {
     const bool tells = t.status == journal::TrialStatus::kOk;
-    if (tells && t.kind != journal::TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
+    if (tells && t.IsOfSearch()) finest = std::min(finest, t.scale_factor);
   }
   return std::isfinite(finest) ? finest : 1;
 }

@@ -15,8 +15,7 @@
 namespace talus::analysis {
 namespace {
 
-constexpr int kGroups = 4;            // of trials, each left out once (delete-a-group jackknife)
-constexpr double kSidesOf90 = 1.645;  // standard deviations each side
+constexpr int kGroups = 4;  // of trials, each left out once (delete-a-group jackknife)
 
 // One objective alone: what it is to meet, and what the trials of the search that define it show of
 // it.
@@ -54,7 +53,7 @@ Sole SoleNumber(const campaign::JointView& view, int experiment,
   Sole sole{.title = MetricTitle(measured.name), .target = {.name = measured.name}};
   sole.target.scalars = {measured};
   for (const journal::TrialRecord& trial : campaign::InOrderOfFinish(view.trials)) {
-    if (trial.experiment != experiment || !campaign::IsOfSearch(trial)) continue;
+    if (trial.experiment != experiment || !trial.IsOfSearch()) continue;
     const double value =
         trial.Metric(measured.name).value_or(std::numeric_limits<double>::quiet_NaN());
     optimizer::Observation observation = Bare(trial);
@@ -103,7 +102,7 @@ std::unique_ptr<optimizer::PosteriorStrategy> Told(const campaign::JointView& vi
   return strategy;
 }
 
-bool Holds(double level) { return level <= campaign::kRegionLevel; }
+bool Holds(double level) { return level <= optimizer::kRegionLevel; }
 
 // The region's share is known to a factor: how it changes with the trials that it is made of.
 void AddUncertainty(const campaign::JointView& view, const Sole& sole,

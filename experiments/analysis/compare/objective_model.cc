@@ -12,9 +12,8 @@
 namespace talus::analysis {
 namespace {
 
-constexpr std::size_t kMaxFitted = 150;   // points that the hyper-parameters are found from
-constexpr std::size_t kMaxPoints = 300;   // points that predictions are made from
-constexpr double kNinetyPercent = 1.645;  // standard deviations each side
+constexpr std::size_t kMaxFitted = 150;  // points that the hyper-parameters are found from
+constexpr std::size_t kMaxPoints = 300;  // points that predictions are made from
 
 // At most `limit` of the points: half of them the nearest to `best`, the rest evenly by order.
 std::vector<ModelPoint> Capped(std::span<const ModelPoint> points, const Eigen::VectorXd& best,
@@ -79,10 +78,10 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
     // Not clamped: where many points fall below 0, the least of them is still one.
     p.objective = info_.Value(all.mean(i), reference_);
-    const double least = info_.Value(p.quantity - kNinetyPercent * p.sd, reference_);
-    const double most = info_.Value(p.quantity + kNinetyPercent * p.sd, reference_);
+    const double least = info_.Value(p.quantity - kSidesOf90 * p.sd, reference_);
+    const double most = info_.Value(p.quantity + kSidesOf90 * p.sd, reference_);
     const bool spans_reference =
-        info_.is_distance && std::abs(p.quantity - reference_) < kNinetyPercent * p.sd;
+        info_.is_distance && std::abs(p.quantity - reference_) < kSidesOf90 * p.sd;
     p.low = spans_reference ? 0 : std::max(0.0, std::min(least, most));
     p.high = std::max(least, most);
   }

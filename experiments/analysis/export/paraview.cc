@@ -19,7 +19,6 @@
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_case.h"

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_file.h"
-#include "base/text/name.h"
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/analysis/predict/prediction_design.h"

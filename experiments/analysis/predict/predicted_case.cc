@@ -1,9 +1,13 @@
 #include "experiments/analysis/predict/predicted_case.h"
 
+#include <algorithm>
+
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/key_text.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/rigs/case/case_text.h"
@@ -57,8 +61,27 @@ std::string SizesText(const engine::SizeDistribution& sizes) {
   return "D50 " + base::ShortNumber(1e3 * curve.VolumeQuantile(0.5)) + " mm";
 }
 
+// What the file states of its material and the campaign's powder has otherwise, but for what was
+// searched: "density 1500 kg/m3 instead of 2500".
+std::vector<std::string> OtherProperties(const JointView& view, const base::JsonFile& file,
+                                         const engine::Material& own) {
+  const nlohmann::json taken = base::ToJson(view.spec.powder.material);
+  const nlohmann::json::json_pointer stated("/powder/material");
+  std::vector<std::string> texts;
+  engine::Material::Visit(own, [&](const std::string& key, double value, base::FieldInfo info) {
+    const bool is_searched =
+        std::ranges::count(view.record.parameters, key, &journal::ParameterRecord::name) > 0;
+    if (is_searched || !file.root.contains(stated / key) || taken[key] == value) return;
+    const std::string unit(base::SiUnit(info.dimension));
+    texts.push_back(base::Spaced(key) + " " + base::ShortNumber(taken[key].get<double>()) +
+                    (unit.empty() ? "" : " " + unit) + " instead of " + base::ShortNumber(value));
+  });
+  return texts;
+}
+
 // The file has a powder of its own because `talus simulate` needs one.
-void NotePowder(const JointView& view, const rigs::Powder& own, PredictedCase& predicted) {
+void NotePowder(const JointView& view, const base::JsonFile& file, const rigs::Powder& own,
+                PredictedCase& predicted) {
   const rigs::Powder& powder = view.spec.powder;
   std::string differs;
   const auto note = [&](const std::string& text) {
@@ -67,10 +90,7 @@ void NotePowder(const JointView& view, const rigs::Powder& own, PredictedCase& p
   if (base::ToJson(own.sizes) != base::ToJson(powder.sizes)) {
     note(SizesText(powder.sizes) + " instead of " + SizesText(own.sizes));
   }
-  if (own.material.density != powder.material.density) {
-    note("density " + base::ShortNumber(powder.material.density) + " kg/m3 instead of " +
-         base::ShortNumber(own.material.density));
-  }
+  for (const std::string& text : OtherProperties(view, file, own.material)) note(text);
   if (differs.empty()) return;
   predicted.notes.push_back("the powder is the campaign's (" + differs +
                             "); of the file's own only its mass counts, " +
@@ -103,7 +123,7 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
     scale_factor = rig_case.coarse_graining.scale_factor;
   }
   predicted.states_scale_factor = scale_factor.has_value();
-  NotePowder(view, rig_case.powder, predicted);
+  NotePowder(view, file, rig_case.powder, predicted);
   TakePowder(view, rig_case);
   if (!file.root.contains("rayleigh_fraction")) {
     rig_case.rayleigh_fraction = view.spec.rayleigh_fraction;

@@ -80,7 +80,7 @@ double Quantile90(std::vector<Weighted> values) {
   double below = 0;
   for (const Weighted& v : values) {
     below += v.weight;
-    if (below >= 0.9 * total) return v.value;
+    if (below >= optimizer::kRegionLevel * total) return v.value;
   }
   return kUnknown;
 }

@@ -14,7 +14,7 @@ namespace {
 
 // t quantile over normal quantile at 5 %; 1 for ν → ∞.
 double StudentOverNormal(double freedom) {
-  return base::StudentFactor(std::max(freedom, 1.0), 0.9) / kNinety;
+  return base::StudentFactor(std::max(freedom, 1.0), optimizer::kRegionLevel) / kNinety;
 }
 
 // What differs by rounding alone does not differ.

@@ -1,7 +1,6 @@
 #include "experiments/campaign/folder/progress.h"
 
 #include "base/text/number_text.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 

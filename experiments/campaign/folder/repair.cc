@@ -102,8 +102,7 @@ journal::ProgressRecord KeptProgressOf(const CampaignFolder& folder,
   if (!std::filesystem::exists(folder.progress())) return {};
   try {
     const auto kept = ReadRecord<KeptProgress>(folder.progress());
-    const auto num_of_search = std::ranges::count_if(
-        trials, [](const auto& trial) { return trial.kind != journal::TrialKind::kConfirm; });
+    const auto num_of_search = std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch);
     return {.elapsed_s = kept.elapsed_s,
             .stop_json = num_of_search == kept.num_of_search ? kept.stop_json : ""};
   } catch (const base::Error&) {

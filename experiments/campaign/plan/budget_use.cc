@@ -6,7 +6,6 @@
 
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
-#include "experiments/campaign/record/stored.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
@@ -55,7 +54,7 @@ struct Pace {
   double OfEach(double finest) const {
     double durations = 0, dearest = 0;
     for (const journal::TrialRecord& trial : trials) {
-      if (HasEnded(trial) && IsOfSearch(trial) && IsPaidFor(trial)) durations += Duration(trial);
+      if (HasEnded(trial) && trial.IsPaidFor()) durations += Duration(trial);
     }
     for (int e = 0; e < num_experiments; ++e) {
       dearest = std::max(dearest, TimeOfOne(trials, e, finest));
@@ -111,12 +110,12 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
   BudgetUse use{.core_seconds = goal_time};
   int search_ended = 0;
   for (const journal::TrialRecord& trial : trials) {
-    if (!IsOfSearch(trial)) {
+    if (!trial.IsOfSearch()) {
       ++use.num_confirm;
       continue;
     }
     use.num_confirm = 0;  // a search that goes on is confirmed anew
-    if (!IsPaidFor(trial)) continue;
+    if (!trial.IsPaidFor()) continue;
     ++use.num_search;
     if (!HasEnded(trial)) continue;
     ++search_ended;

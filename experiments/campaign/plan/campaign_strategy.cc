@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "experiments/campaign/plan/usual_cost.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/rigs/observables/observable.h"
 #include "imaging/formats/images/image_file.h"
 #include "optimizer/strategy/make_strategy.h"
 
@@ -23,8 +25,12 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
           references[e].Field(imaging::DecodeGrayImage(run.png, "the journal's run " + run.name)));
     }
     for (const journal::ScalarRecord& scalar : experiment.scalars) {
-      target.scalars.push_back(
-          {.name = scalar.name, .value = scalar.value, .standard_error = scalar.NormalError()});
+      const auto [low, high] = rigs::BoundsOf(scalar.name);
+      target.scalars.push_back({.name = scalar.name,
+                                .value = scalar.value,
+                                .standard_error = scalar.NormalError(),
+                                .low = low,
+                                .high = high});
     }
     for (const double factor : spec.coarse_graining.Levels()) {
       target.costs.push_back(GrainStepsOf(spec, static_cast<int>(e), factor) / kUsualSpeed);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
 #include "optimizer/strategy/posterior_strategy.h"

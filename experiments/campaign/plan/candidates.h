@@ -14,8 +14,6 @@ namespace talus::campaign {
 // Share of a searched range above which a 90 % range is no point.
 inline constexpr double kWideRange = 0.25;
 
-inline constexpr double kRegionLevel = 0.9;  // credible level of the joint region
-
 enum class CandidateRole { kRecommended, kBranch, kEnd };
 constexpr CandidateRole LastOf(CandidateRole) { return CandidateRole::kEnd; }
 

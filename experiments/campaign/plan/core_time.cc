@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "experiments/campaign/plan/cores.h"
-#include "experiments/campaign/record/stored.h"
 
 namespace talus::campaign {
 
@@ -38,12 +38,12 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
 }
 
 double CoreTime::OfSearch(std::vector<journal::TrialRecord> trials) {
-  std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsPaidFor(trial); });
+  std::erase_if(trials, std::not_fn(&journal::TrialRecord::IsPaidFor));
   return Of(trials);
 }
 
 double CoreTime::OfTold(std::vector<journal::TrialRecord> trials) {
-  std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsOfSearch(trial); });
+  std::erase_if(trials, std::not_fn(&journal::TrialRecord::IsOfSearch));
   return Of(trials);
 }
 

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/record/stored.h"
 #include "optimizer/designs/design.h"
 
 namespace talus::campaign {
@@ -54,7 +55,7 @@ Planner::Planner(const CampaignSpec& spec, const journal::CampaignRecord& record
 
 void Planner::Started(const journal::TrialRecord& trial) {
   trials_.push_back(trial);
-  if (IsOfSearch(trial)) candidates_.reset();
+  if (trial.IsOfSearch()) candidates_.reset();
 }
 
 void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> field) {
@@ -62,7 +63,7 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
                                   [&](const journal::TrialRecord& t) { return t.id == trial.id; });
   *known = trial;
   turns_.Told(trial);
-  if (!IsOfSearch(trial)) return;
+  if (!trial.IsOfSearch()) return;
   const optimizer::Observation observation =
       ObservationOf(trial, ReferenceOf(trial), std::move(field));
   posterior_->Tell(observation);
@@ -109,11 +110,11 @@ int Planner::Count(journal::TrialKind kind) const {
 }
 
 int Planner::NumOfSearch() const {
-  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsOfSearch));
+  return static_cast<int>(std::ranges::count_if(trials_, &journal::TrialRecord::IsOfSearch));
 }
 
 int Planner::NumPaidFor() const {
-  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsPaidFor));
+  return static_cast<int>(std::ranges::count_if(trials_, &journal::TrialRecord::IsPaidFor));
 }
 
 std::vector<journal::TrialRecord> Planner::Next(int count) {
@@ -158,14 +159,13 @@ void Planner::Append(journal::TrialRecord trial, std::vector<journal::TrialRecor
 }
 
 std::int64_t Planner::SeedOf(const journal::TrialRecord& trial) const {
-  constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
   // A reused trial may have had the number and the campaign's seed: its grains would be filled in
   // alike.
   const auto index = static_cast<std::uint64_t>(trial.kind_index) |
                      (static_cast<std::uint64_t>(Count(journal::TrialKind::kReused)) << 24) |
                      (static_cast<std::uint64_t>(trial.attempts - 1) << 48);
   base::Random random(spec_.seed, StreamOf(trial.kind), index);
-  return static_cast<std::int64_t>(1 + random.Below(kMostSeeds));
+  return static_cast<std::int64_t>(1 + random.Below(rigs::kMostSeeds));
 }
 
 Eigen::VectorXd Planner::NoisePoint() const {
@@ -260,7 +260,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
   }
   std::vector<optimizer::Proposal> pending;
   for (const journal::TrialRecord& trial : trials_) {
-    if (IsOfSearch(trial) && trial.status == journal::TrialStatus::kRunning) {
+    if (trial.IsOfSearch() && trial.status == journal::TrialStatus::kRunning) {
       pending.push_back({.point = PointOf(trial),
                          .experiment = trial.experiment,
                          .scale_factor = trial.scale_factor});
@@ -274,7 +274,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
     trial.origin = NameOfOrigin(proposal.origin);
     trial.set = 1;  // 0 is the noise's
     for (const journal::TrialRecord& other : trials_) {
-      if (IsOfSearch(other)) trial.set = std::max(trial.set, other.set + 1);
+      if (other.IsOfSearch()) trial.set = std::max(trial.set, other.set + 1);
     }
     Append(std::move(trial), planned);
   }
@@ -292,7 +292,7 @@ std::optional<optimizer::StopShortfall> Planner::Shortfall() {
 
 std::optional<optimizer::Answer> Planner::Recommend() {
   const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
-    return IsOfSearch(t) && t.status == journal::TrialStatus::kOk && ReferenceOf(t).IsMeasured(t);
+    return t.IsOfSearch() && t.status == journal::TrialStatus::kOk && ReferenceOf(t).IsMeasured(t);
   });
   if (!any) return std::nullopt;
   LeaveCoresToTrials();

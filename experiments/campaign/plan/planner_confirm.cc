@@ -50,7 +50,7 @@ Eigen::MatrixXd Planner::Region(const optimizer::PosteriorSummary& posterior) co
   if (!levels) return draws;
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if ((*levels)[i] <= kRegionLevel) inside.push_back(i);
+    if ((*levels)[i] <= optimizer::kRegionLevel) inside.push_back(i);
   }
   return draws(inside, Eigen::all);
 }
@@ -65,7 +65,7 @@ std::vector<Candidate> Planner::Candidates(const optimizer::Answer& answer) cons
 bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
   const bool searching =
       std::any_of(trials_.begin(), trials_.end(), [](const journal::TrialRecord& t) {
-        return IsOfSearch(t) && t.status == journal::TrialStatus::kRunning;
+        return t.IsOfSearch() && t.status == journal::TrialStatus::kRunning;
       });
   if (searching || spec_.confirm.candidates == 0) return false;
   if (!candidates_) {

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "engine/scene/size_distribution.h"
+#include "experiments/rigs/filling/pouring.h"
 
 namespace talus::campaign {
 namespace {
@@ -13,9 +16,10 @@ constexpr const char* kMoreThanFilled = "more_than_filled";  // AlarmKind::kMore
 
 }  // namespace
 
-double VolumeOfRevolution(const imaging::Profile& profile) {
+double VolumeOfRevolution(const imaging::Profile& profile, double from) {
   const imaging::Frame& frame = profile.frame;
-  const int base = std::min(frame.height, static_cast<int>(std::lround(frame.baseline)));
+  const int base = std::min(
+      frame.height, static_cast<int>(std::lround(frame.baseline - from / frame.pixel_size)));
   double volume = 0;
   for (int y = 0; y < base; ++y) {
     double width = 0;  // [px]
@@ -27,18 +31,22 @@ double VolumeOfRevolution(const imaging::Profile& profile) {
 
 std::optional<journal::PhotoWarningRecord> MoreThanFilled(const rigs::Case& rig_case,
                                                           const imaging::Profile& aehp) {
-  constexpr double kLoose = 0.4;  // solid fraction; poured spheres have 0.55 to 0.6
   if (!rigs::IsRoundHeap(rig_case.rig.kind) || aehp.frame.num_pictures() > 1) return std::nullopt;
-  const double least = kLoose * rig_case.powder.material.density * VolumeOfRevolution(aehp);
+  // The outline passes over its highest grains, half a grain above what is filled.
+  const double above = engine::SizeCurve(rig_case.powder.sizes).VolumeQuantile(0.5) / 2;
+  const double least = rigs::kLooseSolidFraction * rig_case.powder.material.density *
+                       VolumeOfRevolution(aehp, above);
   if (!(least > rig_case.powder.mass)) return std::nullopt;
   return journal::PhotoWarningRecord{
       .kind = kMoreThanFilled,
       .photo = {},
       .value = least / rig_case.powder.mass,
       .text = "the heap on the photographs would weigh " + base::PlainNumber(1e3 * least, 2) +
-              " g, as loose as a solid fraction of 0.4, and " +
+              " g, as loose as a solid fraction of " +
+              base::ShortNumber(rigs::kLooseSolidFraction) + ", and " +
               base::PlainNumber(1e3 * rig_case.powder.mass, 2) +
-              " g were filled in: the plate's diameter, the mass or the density is wrong"};
+              " g were filled in: the plate's diameter, the mass or the density is wrong, or this "
+              "heap is looser still"};
 }
 
 }  // namespace talus::campaign

@@ -73,7 +73,7 @@ std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
 std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& folder,
                                const std::vector<Reference>& references,
                                const journal::TrialRecord& trial) {
-  if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial)) return {};
+  if (trial.status != journal::TrialStatus::kOk || !trial.IsOfSearch()) return {};
   const Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
   if (!reference.has_image()) return {};
   const auto profile = StoredProfile(journal, folder, trial.id);

@@ -14,16 +14,6 @@
 
 namespace talus::campaign {
 
-// Whether a strategy is told of it: all but the confirming ones are.
-inline bool IsOfSearch(const journal::TrialRecord& trial) {
-  return trial.kind != journal::TrialKind::kConfirm;
-}
-
-// Whether it counts against the campaign's budget: what others have made cost them.
-inline bool IsPaidFor(const journal::TrialRecord& trial) {
-  return IsOfSearch(trial) && trial.kind != journal::TrialKind::kReused;
-}
-
 // Those that have finished, in the order in which a strategy was told of them.
 std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials);
 

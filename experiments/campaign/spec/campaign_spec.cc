@@ -12,10 +12,8 @@
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/ignored_keys.h"
 #include "experiments/journal/record_json.h"
-#include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
-#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "imaging/heap/film_strip.h"
@@ -31,7 +29,6 @@ constexpr std::string_view kMayChange[] = {"name",         "budget",  "goal",   
                                            "next",         "workers", "threads", "trial_time_cap",
                                            "retry_failed", "runner"};
 
-constexpr double kLongest = 366 * 86400.0;  // [s]
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
 
@@ -161,7 +158,7 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.RequireFromTo("replicates", replicates, 1, kMostReplicates);
   problems.RequireFromTo("workers", workers, 0, kMostWorkers);
   problems.RequireFromTo("threads", threads, 1, kMostWorkers);
-  problems.Require(trial_time_cap > 0 && trial_time_cap <= kLongest, "trial_time_cap",
+  problems.Require(trial_time_cap > 0 && trial_time_cap <= runners::kYear, "trial_time_cap",
                    trial_time_cap, "must be positive, and at most a year");
   problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,
                    "budget.simulations", budget.simulations, "must be more than noise.replicates");

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "base/text/number_text.h"
+#include "base/units.h"
 
 namespace talus::campaign {
 namespace {
 
 constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
 constexpr double kLargestAngleError = 0.5;          // [rad]
-constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // Written with three decimals at most, as people write numbers.
 bool IsShort(double number) {
@@ -84,11 +84,11 @@ struct Checker {
 
   // What is short in degrees and not in radians was given in degrees.
   void RequireAngle(const std::string& place, double value, double most) {
-    const double degrees = value / kDegree;
+    const double degrees = value / base::kDegree;
     if (IsShort(degrees) && !IsShort(value)) {
       problems.Require(value <= most, place,
                        "is " + base::ShortNumber(degrees) + " deg, must be at most " +
-                           base::ShortNumber(most / kDegree, 4) + " deg");
+                           base::ShortNumber(most / base::kDegree, 4) + " deg");
       return;
     }
     problems.Require(value <= most, place, value,
@@ -108,7 +108,7 @@ struct Checker {
         std::ranges::all_of(*number.values, [](double value) { return value <= kSteepest; });
     const double error = number.StandardError();
     problems.Require(!possible || error <= kLargestAngleError, place + "values",
-                     "have a standard error of " + base::ShortNumber(error / kDegree, 2) +
+                     "have a standard error of " + base::ShortNumber(error / base::kDegree, 2) +
                          " deg; is one of them without its unit? a bare number is in rad");
   }
 };

@@ -104,11 +104,13 @@ TEST_F(DesignTest, WhatIsKnownBeforehandCounts) {
 TEST_F(DesignTest, APowderThatIsSupposedLeavesRangesOfItsOwn) {
   const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
   const DesignTable any = Rank(design, {});
-  const auto of = [&](const std::map<std::string, std::string>& supposed) {
+  const auto rank_supposing = [&](const std::map<std::string, std::string>& supposed) {
     return Rank(design, {.no_command = true}, supposed);
   };
-  const DesignTable middle = of({{"sliding_friction", "0.45"}, {"rolling_friction", "0.275"}});
-  const DesignTable end = of({{"sliding_friction", "0.8"}, {"rolling_friction", "0.5"}});
+  const DesignTable middle =
+      rank_supposing({{"sliding_friction", "0.45"}, {"rolling_friction", "0.275"}});
+  const DesignTable end =
+      rank_supposing({{"sliding_friction", "0.8"}, {"rolling_friction", "0.5"}});
   const optimizer::ExpectedLearning& both = middle.choices[1].at(0).learning;
   EXPECT_EQ(both.bits, any.choices[1].at(0).learning.bits);
   EXPECT_LT(both.wide[0] - both.narrow[0],
@@ -116,7 +118,7 @@ TEST_F(DesignTest, APowderThatIsSupposedLeavesRangesOfItsOwn) {
   // At the corner of what is searched half of a region is cut away in each direction.
   EXPECT_LT(end.choices[1].at(0).learning.width.sum(), 0.85 * both.width.sum());
   EXPECT_LT(end.choices[1].at(0).remaining, middle.choices[1].at(0).remaining);
-  const DesignTable partly = of({{"rolling_friction", "0.275"}});
+  const DesignTable partly = rank_supposing({{"rolling_friction", "0.275"}});
   const campaign::JointView view = ViewOf(design, scratch_.path());
   EXPECT_THAT(
       DesignText(partly, view, design.candidates),

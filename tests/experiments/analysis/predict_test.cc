@@ -46,7 +46,7 @@ class PredictTest : public campaign::CampaignFixture {
   }
   fs::path Taps(const std::string& more = "") const {
     return Write("taps.json", R"({"powder": {
-      "material": {"density": 2500, "sliding_friction": 0.123},
+      "material": {"density": 2500, "youngs_modulus": "5 GPa", "sliding_friction": 0.123},
       "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.5 g"},
       "rig": {"kind": "tapped_density", "diameter": "10 mm"}, "filling": {"kind": "pour"})" +
                                   more + "}");
@@ -80,6 +80,8 @@ TEST_F(PredictTest, TellsTheParametersFromTheScatterOfARun) {
   EXPECT_LT(density.low, density.mean - sd);
   EXPECT_EQ(p.scale_factor, 1);  // of drawn heaps the finest is affordable
   EXPECT_THAT(p.notes, testing::Contains(HasSubstr("D50 0.4 mm instead of D50 1 mm")));
+  EXPECT_THAT(p.notes, testing::Contains(HasSubstr("Pa instead of 5e+09")));
+  EXPECT_THAT(p.notes, testing::Not(testing::Contains(HasSubstr("friction"))));  // it is searched
   EXPECT_THAT(PredictionText(p, view_->record.parameters), HasSubstr("% parameters"));
   EXPECT_THAT(base::ReadFile(folder_ / "predict/taps/draws.csv"),
               testing::StartsWith("draw,weight,sliding_friction,rolling_friction,tapped_density"));

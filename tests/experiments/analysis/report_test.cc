@@ -136,6 +136,7 @@ TEST_F(Report, OutlinesOfTheExperimentAreMarked) {
 }
 
 TEST_F(Report, OutlinesEndOnThePlateWithinIt) {
+  ASSERT_FALSE(Data().outlines.empty());
   for (const OutlineCurve& outline : Data().outlines) {
     ASSERT_GT(outline.x.size(), 10u);
     EXPECT_EQ(outline.height.front(), 0);
@@ -168,7 +169,6 @@ TEST_F(Report, SlicesPassThroughTheAnswerOfTheModelThatAnswered) {
   }
 }
 
-// The posterior is drawn from its draws; nothing is fitted to the trials beside it.
 // Where every set fits the shadow is the whole plane, also between draws on nine stripes.
 TEST(PosteriorPairs, StripesOfTheDrawsAreNotTakenForTheRegion) {
   Evidence evidence;
@@ -187,6 +187,7 @@ TEST(PosteriorPairs, StripesOfTheDrawsAreNotTakenForTheRegion) {
   EXPECT_GT(inside, 0.99 * static_cast<double>(pair.value.size()));
 }
 
+// The posterior is drawn from its draws; nothing is fitted to the trials beside it.
 TEST_F(Report, RegionsOfTwoAreTheShadowOfTheJointOne) {
   const ReportData& data = Data();
   ASSERT_EQ(data.marginals.size(), 3u);
@@ -315,7 +316,10 @@ TEST(Marginals, AFlatDensityOfOneOfSixParametersHasNoStripes) {
   evidence.parameters.assign(
       6, {.range = {.name = "a", .low = 0, .high = 1}, .symbol = "a", .unit = "", .column = "a"});
   evidence.model.emplace().draws = even(Eigen::seqN(0, 2000, 3), Eigen::all);
-  for (const Marginal& marginal : Marginals(evidence)) {
+  const std::vector<Marginal> marginals = Marginals(evidence);
+  ASSERT_EQ(marginals.size(), evidence.parameters.size());
+  for (const Marginal& marginal : marginals) {
+    EXPECT_FALSE(marginal.density.empty());
     for (const double density : marginal.density) EXPECT_NEAR(density, 1, 0.08);
   }
 }

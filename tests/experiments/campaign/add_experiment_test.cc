@@ -70,7 +70,7 @@ class AddExperimentTest : public CampaignFixture {
   static int Count(const fs::path& folder, int experiment) {
     const auto trials = Trials(folder);
     return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const auto& t) {
-      return t.experiment == experiment && IsOfSearch(t);
+      return t.experiment == experiment && t.IsOfSearch();
     }));
   }
 };
@@ -193,7 +193,7 @@ TEST_F(AddExperimentTest, WhatIsTakenOverGetsNoReplicates) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   std::map<std::int64_t, int> members;
   for (const journal::TrialRecord& trial : Trials(folder)) {
-    if (trial.experiment == 1 && IsOfSearch(trial)) ++members[trial.set];
+    if (trial.experiment == 1 && trial.IsOfSearch()) ++members[trial.set];
   }
   EXPECT_EQ(std::ranges::count(std::views::values(members), 1), 16);
   EXPECT_EQ(std::ranges::count_if(std::views::values(members), [](int num) { return num > 2; }), 0);

@@ -18,6 +18,7 @@ namespace talus::campaign {
 namespace campaign_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 constexpr const char* kSmall = R"(,
@@ -211,6 +212,15 @@ TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
   };
   EXPECT_EQ(search(Trials(folder)), search(Trials(other)));
   EXPECT_EQ(search(Trials(folder)).size(), 17u);
+}
+
+// It named the best trial by SAD beside an answer in degrees.
+TEST_F(CampaignTest, TheStatusIsByTheObjectiveOfTheResult) {
+  const fs::path folder = Finished(kSmall);
+  EXPECT_THAT(StatusText(folder), HasSubstr(" mm², trial "));
+  RunFake(folder, {}, {.spec = {}, .add_simulations = 2, .objective = journal::Objective::kAor2});
+  EXPECT_THAT(StatusText(folder), HasSubstr(" °, trial "));
+  EXPECT_THAT(StatusText(folder), Not(HasSubstr(" mm², trial ")));
 }
 
 TEST_F(CampaignTest, AChangedSpecIsRefusedWithWhatChangedUnlessItMayChange) {

@@ -87,6 +87,7 @@ class DrumImages : public ::testing::Test {
 
 TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
   const CampaignSpec spec = Read("", false);
+  ASSERT_EQ(ExperimentsOf(spec).size(), 2u);
   for (const ExperimentSpec& e : ExperimentsOf(spec)) {
     EXPECT_EQ(e.images.plate_diameter, 0.084);
     EXPECT_NEAR(e.rig->drum.fill.value(), 0.5, 0.01);
@@ -94,8 +95,8 @@ TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
   }
 }
 
-// At 45 rpm and more powder may turn with its drum.
-// Without them half a drum was taken for what had been measured, and the change refused.
+// Without the photographs half a drum was taken for what had been measured, and the change
+// refused.
 TEST_F(DrumImages, TheFillStaysWhereThePhotographsAreGone) {
   const fs::path spec = scratch_.path() / "spec.json";
   const auto write = [&](int simulations) {
@@ -114,6 +115,7 @@ TEST_F(DrumImages, TheFillStaysWhereThePhotographsAreGone) {
   EXPECT_NE(going.experiments->at(1).rig->drum.fill.value(), 0.5);
 }
 
+// At 45 rpm and more powder may turn with its drum.
 TEST_F(DrumImages, PowderWithoutASurfaceSaysNoFill) {
   imaging::GrayImage ring = Draw(false);
   for (int y = 0; y < kSide; ++y) {

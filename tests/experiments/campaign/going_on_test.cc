@@ -38,7 +38,8 @@ class GoingOnTest : public CampaignFixture {
         journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json);
   }
   static int NumSearch(const fs::path& folder) {
-    return static_cast<int>(std::ranges::count_if(Trials(folder), IsOfSearch));
+    return static_cast<int>(
+        std::ranges::count_if(Trials(folder), &journal::TrialRecord::IsOfSearch));
   }
 };
 

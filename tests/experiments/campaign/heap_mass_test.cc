@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "experiments/campaign/answer/alarm.h"
@@ -36,6 +37,7 @@ rigs::Case Filled(double mass) {
   rigs::Case rig_case;
   rig_case.powder.material.density = 2500;
   rig_case.powder.mass = mass;
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-5};
   return rig_case;
 }
 
@@ -43,6 +45,17 @@ rigs::Case Filled(double mass) {
 constexpr double kVolume = std::numbers::pi / 12 * 1e-6;
 
 TEST(HeapMass, AConeHasItsVolume) { EXPECT_NEAR(VolumeOfRevolution(Cone()) / kVolume, 1, 0.01); }
+
+// Half of its grains are wider than 1 mm, so that half a millimetre of its 10 is air.
+TEST(HeapMass, TheOutlinePassesHalfAGrainAboveThePowder) {
+  EXPECT_NEAR(VolumeOfRevolution(Cone(), 0.5e-3) / kVolume, std::pow(0.95, 3), 0.01);
+  const double least = 0.4 * 2500 * kVolume;
+  rigs::Case coarse = Filled(0.9 * least);
+  coarse.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
+  EXPECT_FALSE(MoreThanFilled(coarse, Cone()).has_value());
+  coarse.powder.sizes.diameter = 1e-4;
+  EXPECT_TRUE(MoreThanFilled(coarse, Cone()).has_value());
+}
 
 TEST(HeapMass, AHeapOfMoreThanWasFilledInIsDoubted) {
   const double least = 0.4 * 2500 * kVolume;  // 0.26 g

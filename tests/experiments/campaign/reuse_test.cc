@@ -77,7 +77,7 @@ TEST_F(ReuseTest, TheTrialsOfTheFormerCampaignAreToldFirst) {
     EXPECT_EQ(after[i].cpu_s, before[i].cpu_s);
     EXPECT_EQ(after[i].finish_order, static_cast<std::int64_t>(i) + 1);
   }
-  EXPECT_EQ(std::ranges::count_if(after, IsPaidFor), 4);
+  EXPECT_EQ(std::ranges::count_if(after, &journal::TrialRecord::IsPaidFor), 4);
   std::vector<std::int64_t> seeds;
   for (const auto& trial : after) seeds.push_back(trial.seed);
   std::ranges::sort(seeds);

@@ -242,9 +242,11 @@ TEST(Spec, AChangeInOneOfSeveralExperimentsIsNamedByItsKey) {
 }
 
 TEST(Spec, TheExamplesAreInOrder) {
-  for (const char* name : {"demo", "ti6al4v", "al6061", "wet_sand", "drum_mcc"}) {
-    const std::filesystem::path path =
-        std::filesystem::path(TALUS_SOURCE_DIR) / "examples" / name / "campaign.json";
+  for (const char* name :
+       {"demo/campaign.json", "demo/two_tests.json", "demo/three_tests.json",
+        "ti6al4v/campaign.json", "al6061/campaign.json", "wet_sand/campaign.json",
+        "film/campaign.json", "drum_mcc/campaign.json", "drum_mcc/campaign_true_grains.json"}) {
+    const std::filesystem::path path = std::filesystem::path(TALUS_SOURCE_DIR) / "examples" / name;
     EXPECT_NO_THROW(ReadCampaignSpec(base::ReadJsonFile(path))) << path;
   }
 }

@@ -33,7 +33,8 @@ void AddModelViews(ReportData& data) {
 
 // The region's share of the searched plane.
 double InsideShare(const PairMap& pair) {
-  const auto inside = std::ranges::count_if(pair.value, [](double level) { return level < 0.9; });
+  const auto inside = std::ranges::count_if(
+      pair.value, [](double level) { return level < optimizer::kRegionLevel; });
   return pair.plane * static_cast<double>(inside) / static_cast<double>(pair.value.size());
 }
 

@@ -132,7 +132,7 @@ std::string Region(const ReportData& data) {
   SvgChart chart(axis(pair.i), axis(pair.j));
   const std::size_t columns = pair.x_edges.size() - 1;
   for (std::size_t c = 0; c < pair.value.size(); ++c) {
-    if (pair.value[c] >= 0.9) continue;
+    if (pair.value[c] >= optimizer::kRegionLevel) continue;
     const std::size_t x = c % columns, y = c / columns;
     chart.Cell({{pair.x_edges[x], pair.y_edges[y]}, {pair.x_edges[x + 1], pair.y_edges[y + 1]}},
                pair.value[c] < 0.5 ? kRegion50 : kRegion90);

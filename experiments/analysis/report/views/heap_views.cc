@@ -53,8 +53,9 @@ std::vector<const TrialEvidence*> FittingTrials(const Evidence& evidence) {
     points.row(static_cast<Eigen::Index>(i)) = trials[i]->point;
   }
   const Eigen::VectorXd levels = evidence.model->credible_levels(points);
-  std::erase_if(
-      trials, [&, i = Eigen::Index{0}](const TrialEvidence*) mutable { return levels[i++] > 0.9; });
+  std::erase_if(trials, [&, i = Eigen::Index{0}](const TrialEvidence*) mutable {
+    return levels[i++] > optimizer::kRegionLevel;
+  });
   return trials;
 }
 

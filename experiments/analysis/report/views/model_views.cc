@@ -5,15 +5,13 @@
 
 #include "base/random.h"
 #include "experiments/analysis/report/views/posterior_density.h"
-#include "experiments/campaign/plan/candidates.h"
 
 namespace talus::analysis {
 namespace {
 
 constexpr int kSlicePoints = 61;
 constexpr int kMarginalCells = 60;
-constexpr int kRegionCells = 120;         // of a pair, each way
-constexpr double kNinetyPercent = 1.645;  // standard deviations each side
+constexpr int kRegionCells = 120;  // of a pair, each way
 
 std::vector<double> Along(const ParameterInfo& parameter, int num_cells, double offset) {
   const int count = offset == 0 ? num_cells + 1 : num_cells;
@@ -101,7 +99,7 @@ Levelled ShadowPoints(const ModelEvidence& model) {
   const Eigen::VectorXd levels = model.credible_levels(tried);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < kTried && std::ssize(inside) < kMost; ++i) {
-    if (levels[i] <= campaign::kRegionLevel) inside.push_back(i);
+    if (levels[i] <= optimizer::kRegionLevel) inside.push_back(i);
   }
   const Eigen::Index count = model.draws.rows() + std::ssize(inside);
   Levelled all{.points = Eigen::MatrixXd(count, model.draws.cols()),
@@ -125,7 +123,7 @@ std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::Vector
     }
     const optimizer::Moments predicted = evidence.model->predict(along);
     for (int i = 0; i < kSlicePoints; ++i) {
-      const double reach = kNinetyPercent * predicted.sd[i];
+      const double reach = kSidesOf90 * predicted.sd[i];
       slice.mean.push_back(predicted.mean[i]);
       slice.low.push_back(std::isnan(reach) ? reach : std::max(0.0, predicted.mean[i] - reach));
       slice.high.push_back(predicted.mean[i] + reach);

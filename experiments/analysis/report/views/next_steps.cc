@@ -59,7 +59,7 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
                 .leaves = {},
                 // Nobody asks for a nuisance, only for what the others are, given it.
                 .remaining = measured.nuisance ? 1 : kMeasured / width};
-  const std::vector<optimizer::Range> ranges = optimizer::CredibleRanges(given, 0.9);
+  const std::vector<optimizer::Range> ranges = optimizer::CredibleRanges(given);
   for (std::size_t j = 0, left = 0; j < evidence.parameters.size(); ++j) {
     if (j == k) continue;
     const ParameterInfo& other = evidence.parameters[j];

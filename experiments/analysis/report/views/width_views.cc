@@ -52,7 +52,7 @@ WidthView Shadow(const Evidence& evidence, const std::vector<PairMap>& pairs) {
   for (const PairMap& pair : pairs) {
     const std::size_t columns = pair.x_edges.size() - 1;
     for (std::size_t c = 0; c < pair.value.size(); ++c) {
-      if (!(pair.value[c] < 0.9)) continue;
+      if (!(pair.value[c] < optimizer::kRegionLevel)) continue;
       for (const std::size_t edge : {std::size_t{0}, std::size_t{1}}) {
         Include(pair.x_edges[c % columns + edge], pair.i, view);
         Include(pair.y_edges[c / columns + edge], pair.j, view);
@@ -64,7 +64,7 @@ WidthView Shadow(const Evidence& evidence, const std::vector<PairMap>& pairs) {
   const Eigen::VectorXd levels = evidence.model->credible_levels(draws);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if (levels[i] <= 0.9) inside.push_back(i);
+    if (levels[i] <= optimizer::kRegionLevel) inside.push_back(i);
   }
   if (inside.empty()) return view;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
@@ -90,7 +90,7 @@ WidthView AcrossTheCurve(const Evidence& evidence, std::size_t i, std::size_t j)
         DrawsNear(evidence.model->draws, static_cast<Eigen::Index>(other), held);
     if (static_cast<Eigen::Index>(near.size()) < kFewestNear) continue;
     const Eigen::MatrixXd column = evidence.model->draws(near, static_cast<Eigen::Index>(k));
-    Set(evidence, k, optimizer::CredibleRanges(column, 0.9).front(), view);
+    Set(evidence, k, optimizer::CredibleRanges(column).front(), view);
   }
   return view;
 }
