@@ -20,7 +20,6 @@ struct Unit {
   double si;  // how many SI units one of it is
 };
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kPerMinute = 2 * std::numbers::pi / 60;  // a turn, in rad/s
 
 constexpr Unit kNoUnits[] = {{"%", 0.01}};

@@ -1,10 +1,13 @@
 // Quantities as people write them: "45 um", "1.5 g", "1 cm/s", "26.25 MPa", "40e-5 J/m^2".
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <string_view>
 
 namespace talus::base {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // What a number measures; it decides which units a text may carry.
 enum class Dimension {

@@ -92,10 +92,6 @@ std::string JsonOf(const py::handle& value) {
   return py::module_::import("json").attr("dumps")(value).cast<std::string>();
 }
 
-py::object FromJson(const std::string& text) {
-  return py::module_::import("json").attr("loads")(text);
-}
-
 imaging::Frame FrameOf(const py::dict& frame) {
   return base::LoadOptions<imaging::Frame>(base::ParseJson(JsonOf(frame), "frame"));
 }

@@ -32,6 +32,5 @@ imaging::Frame FrameOf(const pybind11::dict& frame);
 
 // Anything that json.dumps takes, read as one of our option structs.
 std::string JsonOf(const pybind11::handle& value);
-pybind11::object FromJson(const std::string& text);
 
 }  // namespace talus::python

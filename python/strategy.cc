@@ -46,9 +46,8 @@ constexpr double kLargestPixel = 1e12;  // in whatever unit of area the user has
 
 // The value of an evaluation; NaN and infinity say that it has failed.
 double ValueOf(const py::handle& value) {
-  constexpr double kLargest = 1e100;  // squares of it are summed up
   const double number = NumberOf(value, "value");
-  if (std::isfinite(number) && std::abs(number) > kLargest) {
+  if (std::isfinite(number) && std::abs(number) > optimizer::kLargestValue) {
     throw base::ConfigError("value: is beyond 1e100, which no search can work with");
   }
   return number;

@@ -78,15 +78,6 @@ void ClaimOutputFolder(const fs::path& folder, std::string_view command,
   WriteFileAtomically(folder / kMark, std::string(command) + "\n", Outlives::kProgram);
 }
 
-void RequireNoInput(const fs::path& output, std::span<const fs::path> inputs) {
-  for (const fs::path& input : inputs) {
-    if (!IsSame(output, input)) continue;
-    throw ConfigError(output.string() +
-                      ": is an input, which the result would overwrite; name "
-                      "another file");
-  }
-}
-
 void RemoveFormerFiles(const fs::path& folder, std::string_view prefix) {
   if (!fs::is_directory(folder)) return;
   std::vector<fs::path> former;

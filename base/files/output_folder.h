@@ -24,10 +24,6 @@ bool MayWriteInto(const std::filesystem::path& folder);
 // Whether `command` has written into the folder.
 bool IsOutputFolder(const std::filesystem::path& folder, std::string_view command);
 
-// Throws ConfigError when `output` is one of `inputs`, by whatever name.
-void RequireNoInput(const std::filesystem::path& output,
-                    std::span<const std::filesystem::path> inputs);
-
 // Removes the files in a folder, if there is one, whose names begin so: an earlier call of the
 // command that writes them may have left more of them than this one will.
 void RemoveFormerFiles(const std::filesystem::path& folder, std::string_view prefix);

@@ -6,7 +6,6 @@
 // the row before. The whole table is part of the state, so that a restart writes the same file.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -16,7 +16,8 @@
 namespace talus::engine {
 namespace {
 
-constexpr double kUsualRayleighFraction = 0.15;
+// Single collisions stay accurate; heaps take rigs::kUsualRayleighFraction.
+constexpr double kSceneRayleighFraction = 0.15;
 constexpr double kDensest = 0.64;  // solid fraction of a random packing of equal spheres
 
 template <class T>
@@ -158,7 +159,7 @@ void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_ste
 // The step must suit what is there and what comes.
 void SetTimeStep(const SceneSpec& spec, Scene& scene) {
   scene.time_step = spec.time_step.value_or(0);
-  scene.rayleigh_fraction = spec.rayleigh_fraction.value_or(kUsualRayleighFraction);
+  scene.rayleigh_fraction = spec.rayleigh_fraction.value_or(kSceneRayleighFraction);
   if (spec.pours.empty()) return;
   RequireMouths(spec);
   const double rayleigh = PouredRayleighTime(spec);
@@ -338,10 +339,7 @@ void ReadSphereFiles(SceneSpec& spec) {
 Scene BuildScene(const SceneSpec& spec) {
   Scene scene;
   for (const NamedMaterial& material : spec.materials) scene.materials.push_back(material.material);
-  for (const PairSpec& pair : spec.pairs) {
-    scene.pairs.push_back(
-        {MaterialIndex(spec, pair.between[0]), MaterialIndex(spec, pair.between[1]), pair.stated});
-  }
+  scene.pairs = BuildPairs(spec);
   scene.models = spec.models;
   for (const SphereSpec& sphere : spec.spheres) {
     scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),

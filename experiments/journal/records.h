@@ -172,6 +172,12 @@ struct TrialRecord {
 
   // The value of a metric; nothing when the trial has none or it is not defined.
   std::optional<double> Metric(std::string_view name) const;
+
+  // Whether a strategy is told of it: all but the confirming ones are.
+  bool IsOfSearch() const { return kind != TrialKind::kConfirm; }
+
+  // Whether it counts against the campaign's budget: what others have made cost them.
+  bool IsPaidFor() const { return IsOfSearch() && kind != TrialKind::kReused; }
 };
 
 }  // namespace talus::journal

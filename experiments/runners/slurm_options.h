@@ -11,6 +11,8 @@
 
 namespace talus::runners {
 
+inline constexpr double kYear = 366 * 86400.0;  // [s]: a longer limit is a slip of the unit
+
 struct SlurmOptions {
   std::string partition{};             // "": the cluster's default
   std::string account{};               // "": the user's default
@@ -52,8 +54,7 @@ struct SlurmOptions {
           {.doc = "of a trial after a node failure or preemption, >= 0"});
   }
   void Validate(base::Problems& problems) const {
-    constexpr double kLongest = 366 * 86400.0;  // [s]
-    problems.Require(!time || (*time > 0 && *time <= kLongest), "time", time.value_or(0),
+    problems.Require(!time || (*time > 0 && *time <= kYear), "time", time.value_or(0),
                      "must be positive, and at most a year");
     problems.Require(cores >= 1, "cores", cores, "must be at least 1");
     problems.Require(max_jobs >= 1, "max_jobs", max_jobs, "must be at least 1");

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "imaging/heap/heap_alone.h"
 #include "imaging/heap/heap_shape.h"
 #include "imaging/heap/outline.h"
@@ -15,12 +15,11 @@
 namespace talus::imaging {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 constexpr const char* kFilm = "a film shows another heap in each picture";
 
 Measured InDegrees(Measured angle) {
-  angle.value /= kDegree;
-  angle.standard_error /= kDegree;
+  angle.value /= base::kDegree;
+  angle.standard_error /= base::kDegree;
   return angle;
 }
 

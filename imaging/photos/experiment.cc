@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "imaging/formats/images/map_file.h"
 #include "imaging/photos/copied_photos.h"
 #include "imaging/photos/film.h"
@@ -24,9 +24,8 @@
 namespace talus::imaging {
 namespace {
 
-constexpr double kMostPixels = 20000;  // across the plate
-constexpr double kRadPerDegree = std::numbers::pi / 180;
-constexpr double kMostPlateTilt = 10 * kRadPerDegree;  // of the plate [rad]
+constexpr double kMostPixels = 20000;                  // across the plate
+constexpr double kMostPlateTilt = 10 * base::kDegree;  // of the plate [rad]
 
 // Where nobody has named a pattern that leaves them out.
 void WarnOfUnread(const ExperimentOptions& options, const PhotoSet& set,
@@ -189,7 +188,7 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(std::abs(tilt) <= kMostPlateTilt, "tilt", tilt,
-                   "in rad, which is " + base::ShortNumber(tilt / kRadPerDegree) +
+                   "in rad, which is " + base::ShortNumber(tilt / base::kDegree) +
                        " degrees, and must be within ±10: turn the photographs, or, if " +
                        base::ShortNumber(tilt) + " degrees are meant, write \"" +
                        base::ShortNumber(tilt) + " deg\"");

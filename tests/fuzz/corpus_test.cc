@@ -44,7 +44,9 @@ TEST_P(Corpus, EveryFileIsReadOrRefused) {
 // Not a search, only a guard where there is no fuzzer: cut, with bytes changed, and with a part
 // doubled.
 TEST_P(Corpus, DamagedFilesAreReadOrRefused) {
-  for (const std::string& good : FilesOf(GetParam())) {
+  const auto files = FilesOf(GetParam());
+  ASSERT_FALSE(files.empty());
+  for (const std::string& good : files) {
     for (std::uint64_t round = 0; round < 200 && !good.empty(); ++round) {
       base::Random random(1, base::Stream("damage"), round);
       std::string bytes = good;
@@ -67,6 +69,12 @@ TEST(CorpusFolder, HasATargetForEachOfItsFolders) {
   for (const Target& target : AllTargets()) names.emplace(target.name);
   for (const auto& entry : fs::directory_iterator(kCorpus)) {
     EXPECT_TRUE(names.contains(entry.path().filename())) << entry.path();
+  }
+}
+
+TEST(CorpusFolder, HasAFolderForEachTarget) {
+  for (const Target& target : AllTargets()) {
+    EXPECT_TRUE(fs::is_directory(kCorpus / target.name)) << target.name;
   }
 }
 

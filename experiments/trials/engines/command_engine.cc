@@ -17,9 +17,7 @@
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/case_text.h"
-#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/observable.h"
-#include "experiments/runners/local_runner.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_case.h"
@@ -29,7 +27,6 @@
 #include "experiments/trials/engines/tube_numbers.h"
 #include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
-#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::trials {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/json/json_file.h"
 #include "experiments/trials/engines/command_options.h"
 #include "experiments/trials/engines/template_folder.h"
 #include "experiments/trials/engines/trial_engine.h"

@@ -7,7 +7,6 @@
 
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
-#include "experiments/rigs/load_case.h"
 
 namespace talus::trials {
 namespace {

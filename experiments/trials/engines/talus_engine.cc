@@ -13,7 +13,6 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/observable.h"
-#include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -13,6 +12,7 @@
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/drums/drum_overlay.h"
 #include "imaging/formats/images/image_file.h"
@@ -26,8 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kDrumDegree = std::numbers::pi / 180;  // [rad]
-
 ordered_json DrumJson(const imaging::MeasuredDrum& drum, std::size_t num_photos) {
   const imaging::DrumCircle& circle = drum.map.circle;
   ordered_json json{{"num_photos", num_photos},
@@ -37,12 +35,12 @@ ordered_json DrumJson(const imaging::MeasuredDrum& drum, std::size_t num_photos)
                     {"inner_radius_px", drum.map.inner_radius},
                     {"pixel_size_m", drum.pixel_size},
                     {"turning", nullptr},
-                    {"angle_deg", base::ToJson(drum.angle.value / kDrumDegree)},
+                    {"angle_deg", base::ToJson(drum.angle.value / base::kDegree)},
                     {"fill", base::ToJson(drum.surface.fill.value)}};
   if (drum.turning) json["turning"] = base::NameOf(*drum.turning);
   if (!drum.angle.defined()) json["not_defined"] = drum.angle.not_defined;
   if (num_photos < 2) return json;
-  json["angle_standard_error_deg"] = base::ToJson(drum.angle.standard_error / kDrumDegree);
+  json["angle_standard_error_deg"] = base::ToJson(drum.angle.standard_error / base::kDegree);
   json["surface_sd_m"] = drum.surface_sd;
   return json;
 }
@@ -79,9 +77,9 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
   if (drum.angle.defined()) {
     print << "  turning " << base::NameOf(*drum.turning) << ", powder higher on the "
           << (drum.turning == imaging::Turning::kClockwise ? "left" : "right")
-          << "\n  dynamic angle " << base::ShortNumber(drum.angle.value / kDrumDegree) << "°";
+          << "\n  dynamic angle " << base::ShortNumber(drum.angle.value / base::kDegree) << "°";
     if (num_photos > 1) {
-      print << " ± " << base::ShortNumber(drum.angle.standard_error / kDrumDegree, 2) << "°";
+      print << " ± " << base::ShortNumber(drum.angle.standard_error / base::kDegree, 2) << "°";
     }
     print << '\n';
   } else {

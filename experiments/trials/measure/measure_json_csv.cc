@@ -3,19 +3,17 @@
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "base/json/json_writer.h"
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 
 namespace talus::trials {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // With enough digits for any use, and no more than are true of a measurement.
 std::string Number(double value, int digits = 8) {
@@ -35,9 +33,9 @@ ordered_json AnglesJson(const imaging::ReposeAngles& angles) {
   for (std::size_t method = 0; method < angles.size(); ++method) {
     const imaging::SideAngles& sides = angles[method];
     const std::string name = "repose_angle_" + std::to_string(method + 1) + "_";
-    json[name + "left_deg"] = base::ToJson(sides.left.value / kDegree);
-    json[name + "right_deg"] = base::ToJson(sides.right.value / kDegree);
-    json[name + "mean_deg"] = base::ToJson(sides.mean.value / kDegree);
+    json[name + "left_deg"] = base::ToJson(sides.left.value / base::kDegree);
+    json[name + "right_deg"] = base::ToJson(sides.right.value / base::kDegree);
+    json[name + "mean_deg"] = base::ToJson(sides.mean.value / base::kDegree);
   }
   return json;
 }
@@ -47,7 +45,7 @@ ordered_json ViewJson(const imaging::MeasuredView& view) {
                     {"plate_width_px", view.plate.width},
                     {"plate_center_x_px", view.plate.center_x},
                     {"baseline_px", view.plate.baseline},
-                    {"tilt_deg", view.plate.tilt / kDegree},
+                    {"tilt_deg", view.plate.tilt / base::kDegree},
                     {"nebp_px", view.nebp}};
   json.update(AnglesJson(view.angles));
   return json;

@@ -16,8 +16,6 @@
 namespace talus::trials {
 namespace {
 
-constexpr double kLargest = 1e100;  // squares of it are summed up
-
 constexpr std::size_t kLongest = 200;  // bytes of an excerpt
 
 bool IsInsideCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
@@ -111,7 +109,7 @@ std::string Evaluator::TakeAnswer(const std::string& output,
     if (!answer["value"].is_number()) return "has a \"value\" that is no number";
     if (field_) return "is a \"value\", but the problem has a target image: take one of them away";
     observation.value = answer["value"].get<double>();
-    if (std::abs(observation.value) <= kLargest) return "";
+    if (std::abs(observation.value) <= optimizer::kLargestValue) return "";
     return "has a \"value\" beyond 1e100, which no search can work with";
   }
   try {

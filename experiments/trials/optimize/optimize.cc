@@ -15,6 +15,7 @@
 #include "experiments/trials/optimize/optimize_folder.h"
 #include "experiments/trials/optimize/optimize_result_json.h"
 #include "optimizer/space/domain.h"
+#include "surrogate/same_point.h"
 
 namespace talus::trials {
 namespace {
@@ -85,7 +86,7 @@ class OptimizeLoop {
   Evaluated Evaluate(const Eigen::VectorXd& point, int number) {
     if (folder_) {
       const auto recorded = folder_->Recorded(number);
-      if (recorded && optimizer::SamePoint(recorded->observation.point, point)) return *recorded;
+      if (recorded && surrogate::SamePoint(recorded->observation.point, point)) return *recorded;
     }
     const Evaluated evaluated =
         evaluator_.Run(point, problem_.seed * 1000003 + static_cast<std::uint64_t>(number),

@@ -227,7 +227,7 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   EXPECT_THAT(error("size (um),% over\n1,100\n2,0\n"), HasSubstr("coarser"));
   EXPECT_THAT(error("x (um),q3 [1/um]\n1,0.4\n2,0.6\n"), HasSubstr("density"));
   EXPECT_THAT(error("size (um),% under\n1,50\n2,40\n3,100\n"), HasSubstr("shares[1]"));
-  // What follows used to be left out without a word.
+  // A line without a share is refused, not skipped, and so is a second table.
   EXPECT_THAT(error("size (um),% under\n1,20\n2\n3,60\n4,100\n"),
               HasSubstr("line 3: has no share"));
   EXPECT_THAT(error("size (um),% under,n\n1,20,3\n2,n/a,4\n3,60,3\n4,100,1\n"),
