@@ -93,8 +93,7 @@ double BedShare(const Case& c, const Vessel& vessel) {
 
 // Rigs whose powder runs until it rests: later there is nothing to film.
 void ValidateLastPicture(const Case& c, base::Problems& problems) {
-  const bool rests = c.rig.kind == RigKind::kColumnCollapse || c.rig.kind == RigKind::kDrawDown;
-  if (!c.rig.camera || !rests) return;
+  if (!c.rig.camera || c.rig.kind != RigKind::kColumnCollapse) return;
   problems.Require(c.rig.camera->LastTime() <= c.rules.heap.max_time, "rig.camera",
                    "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
                        " s after the gate has opened, and the test ends after " +

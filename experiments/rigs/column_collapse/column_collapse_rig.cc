@@ -11,6 +11,7 @@
 
 #include "base/text/counted.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
@@ -56,11 +57,12 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
 
   static std::vector<engine::Wall> Walls(const Case& c, double height) {
     const ColumnCollapseOptions& channel = c.rig.column_collapse;
-    const engine::Rectangle gate{.center = {channel.length / 2, 0, 0.75 * height},
+    const double top = std::max(1.5 * height, height + Headroom(c, VesselOf(c), c.filling.taps));
+    const engine::Rectangle gate{.center = {channel.length / 2, 0, top / 2},
                                  .normal = {1, 0, 0},
                                  .edge = {0, 1, 0},
                                  .width = channel.width,
-                                 .height = 1.5 * height};
+                                 .height = top};
     return {{.name = "gate", .shape = gate, .material = kWalls},
             {.name = "floor", .shape = engine::Plane{}, .material = kFloor},
             {.name = "end",

@@ -32,9 +32,11 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
     Phase discharging = Resting("discharging", c.rules.heap, [this] {
       return HasStopped(memory().flow, rig_case().rules.heap.hold_time);
     });
+    const double test_time = TestTime(c, FilledHeight(c, vessel()));
+    discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };
-    SetPhases({discharging}, TestTime(c, FilledHeight(c, vessel())));
+    SetPhases({discharging}, test_time);
   }
 
   static Vessel VesselOf(const Case& c) {

@@ -35,6 +35,13 @@ double DropHeight(const Case& c, const Vessel& vessel) {
   return c.filling.drop_height.value_or(vessel.across / 2);
 }
 
+double Headroom(const Case& c, const Vessel& vessel, const std::optional<TapRule>& taps) {
+  constexpr double kStrokes = 4;  // a grain on top is thrown higher than its floor
+  const double thrown = taps ? kStrokes * taps->height : 0;
+  if (c.filling.kind != FillingKind::kPour) return thrown;
+  return DropHeight(c, vessel) + MakePour(c, vessel).slab() + LargestDiameter(c) + thrown;
+}
+
 double FallHeight(const Case& c, const Vessel& vessel, const engine::Pour& pour) {
   return DropHeight(c, vessel) + pour.slab() + vessel.region.base.z - vessel.Floor();
 }

@@ -1,6 +1,7 @@
 // The pouring of a test's powder into its tube or box.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/scene/pour.h"
@@ -18,6 +19,10 @@ std::vector<double> DrawRadii(const Case& rig_case);
 double MouthDiameter(const Case& rig_case, const Vessel& vessel);
 
 engine::Pour MakePour(const Case& rig_case, const Vessel& vessel);
+
+// How much higher than their powder a vessel's walls must be, so that no grain hops over them:
+// those that are poured appear above the mouth, and a tap throws them up [m].
+double Headroom(const Case& rig_case, const Vessel& vessel, const std::optional<TapRule>& taps);
 
 // Height of the mouth above the powder, which it follows as the vessel fills to a solid fraction of
 // a half [m].

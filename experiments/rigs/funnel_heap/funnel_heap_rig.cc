@@ -87,7 +87,7 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   static double Width(const Case& c) { return c.rig.funnel_heap.plate_diameter; }
 
-  static double TestTime(const Case& c, double) { return MakePour(c, VesselOf(c)).Duration(); }
+  static double TestTime(const Case&, double) { return 0; }  // the test is its filling
 
   // what lies on the plate or is about to, the layer below the rim's top included
   std::vector<engine::Particle> Grains() const override {

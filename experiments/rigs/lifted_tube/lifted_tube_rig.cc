@@ -70,11 +70,14 @@ Vessel LiftedTubeRig::VesselOf(const Case& c) {
           .across = diameter};
 }
 
-// The plate's top is z = 0; the tube stands on it. Where it is poured into it is half its diameter
-// longer than the powder needs, so that no grain hops over its rim.
+// The plate's top is z = 0; the tube stands on it, longer than the powder needs, so that no grain
+// hops over its rim: half its diameter, where the mouth is no higher than that.
 std::vector<engine::Wall> LiftedTubeRig::Walls(const Case& c, double height) {
   const LiftedTubeOptions& options = c.rig.lifted_tube;
-  const double spare = c.filling.kind == FillingKind::kPour ? options.tube_inner_diameter / 2 : 0;
+  const bool is_usual =
+      c.filling.kind == FillingKind::kPour && !c.filling.drop_height && !c.filling.taps;
+  const double spare =
+      is_usual ? options.tube_inner_diameter / 2 : Headroom(c, VesselOf(c), c.filling.taps);
   const engine::OpenCylinder tube{.base = {},
                                   .radius = options.tube_inner_diameter / 2,
                                   .length = options.tube_length.value_or(height + spare)};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
@@ -75,9 +76,10 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
 
   static std::vector<engine::Wall> Walls(const Case& c, double height) {
     const OrificeFlowOptions& options = c.rig.orifice_flow;
+    const double headroom = Headroom(c, VesselOf(c), c.filling.taps);
     const engine::OpenCylinder cylinder{.base = {0, 0, ConeHeight(options)},
                                         .radius = options.diameter / 2,
-                                        .length = 1.2 * height};
+                                        .length = std::max(1.2 * height, height + headroom)};
     return {
         {.name = "gate", .shape = engine::Disc{.radius = options.orifice / 2}, .material = kFloor},
         {.name = "floor", .shape = FloorOf(options), .material = kFloor},

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPixelsPerGrain = 5;
 constexpr int kMostPixels = 2000;  // across
-constexpr double kLowest = 2;      // grains: a layer of single ones has no slope
+constexpr double kLowest = 1.5;    // grains: a layer of single ones has no slope
 
 double TopOf(std::span<const engine::Particle> heap) {
   double top = 0;
@@ -66,7 +66,7 @@ std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
     readings.push_back(ReadingOf(observable, imaging::FindMetric(metrics, name)));
     const bool is_angle = observable != Observable::kStaticCohesiveIndex;
     if (!is_angle || heap.empty() || top > kLowest * plate.grain_diameter) continue;
-    readings.back() = {.observable = observable, .undefined = "the heap is not two grains high"};
+    readings.back() = {.observable = observable, .undefined = "the heap is one grain high"};
   }
   return readings;
 }

@@ -186,11 +186,10 @@ bool Rig::HasLanded() const {
 }
 
 bool Rig::AtRest(const RestRule& rule) {
-  record().energy_ratio =
-      RestingEnergy(view().particles, view().contacts,
-                    {.gravity = case_.gravity,
-                     .moving_share = rule.moving_share,
-                     .spins_count = case_.powder.material.sliding_friction > 0});
+  record().energy_ratio = RestingEnergy(view().particles, view().contacts,
+                                        {.gravity = case_.gravity,
+                                         .moving_share = rule.moving_share,
+                                         .spins_count = simulation_.ResistsSpin()[kPowder]});
   return record().energy_ratio < rule.energy_fraction;
 }
 

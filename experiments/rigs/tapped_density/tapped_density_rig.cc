@@ -2,12 +2,14 @@
 //
 //   ρ = m / (A h)     h = 2 (height of the centre of mass above the floor), the level of an even
 //   bed
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
@@ -43,8 +45,11 @@ class TappedDensityRig : public RememberingRig<TappedDensityMemory> {
 
   static std::vector<engine::Wall> Walls(const Case& c, double height) {
     const double radius = c.rig.tapped_density.diameter / 2;
+    const double headroom = Headroom(c, VesselOf(c), c.rig.tapped_density.taps);
     return {{.name = "cylinder",
-             .shape = engine::OpenCylinder{.base = {}, .radius = radius, .length = 1.2 * height},
+             .shape = engine::OpenCylinder{.base = {},
+                                           .radius = radius,
+                                           .length = std::max(1.2 * height, height + headroom)},
              .material = kWalls},
             {.name = "floor", .shape = engine::Plane{}, .material = kFloor}};
   }

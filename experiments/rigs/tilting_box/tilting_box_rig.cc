@@ -10,6 +10,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
@@ -56,7 +57,8 @@ class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {
   static std::vector<engine::Wall> Walls(const Case& c, double height) {
     const TiltingBoxOptions& box = c.rig.tilting_box;
     const double lip = box.lip_height.value_or(0);
-    const double gate = std::max(1.5 * height, 2 * lip);
+    const double gate =
+        std::max({1.5 * height, 2 * lip, height + Headroom(c, VesselOf(c), c.filling.taps)});
     const auto across = [&](double low, double high) {
       return engine::Rectangle{.center = {box.length / 2, 0, (low + high) / 2},
                                .normal = {1, 0, 0},

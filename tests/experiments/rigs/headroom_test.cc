@@ -1,0 +1,76 @@
+// No grain leaves its vessel over the walls: what is poured falls from the mouth, and taps throw
+// it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "experiments/rigs/filling/pouring.h"
+#include "tests/experiments/rigs/rig_case.h"
+
+namespace talus::rigs {
+namespace headroom_test {
+
+// A few tenths of a millimetre deep, so that the mouth is far above the powder.
+Case Shallow(RigKind kind) {
+  Case c = CaseOf(kind, 0.3, 0.1, 0.2e-3);
+  c.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.7e-3};
+  c.powder.material.restitution = 0.9;
+  c.filling.kind = FillingKind::kPour;
+  return c;
+}
+
+double Top(const engine::Wall& wall) {
+  if (const auto* tube = std::get_if<engine::OpenCylinder>(&wall.shape)) {
+    return tube->base.z + tube->length;
+  }
+  if (const auto* gate = std::get_if<engine::Rectangle>(&wall.shape)) {
+    return gate->center.z + gate->height / 2;
+  }
+  return 0;
+}
+
+// The highest of a vessel that is filled to `height`.
+double TopOfWalls(const Case& c, double height) {
+  double top = 0;
+  for (const engine::Wall& wall : EntryOf(c).walls(c, height)) top = std::max(top, Top(wall));
+  return top;
+}
+
+TEST(Headroom, PouredGrainsAppearBelowTheTopOfTheWalls) {
+  for (const RigKind kind : {RigKind::kTappedDensity, RigKind::kOrificeFlow,
+                             RigKind::kColumnCollapse, RigKind::kTiltingBox}) {
+    const Case c = Shallow(kind);
+    const Vessel vessel = EntryOf(c).vessel(c);
+    const double height = PouredHeight(c, vessel);
+    EXPECT_GE(TopOfWalls(c, height),
+              vessel.region.base.z + height + DropHeight(c, vessel) + MakePour(c, vessel).slab())
+        << base::NameOf(kind);
+  }
+  Case tube = Shallow(RigKind::kLiftedTube);
+  tube.filling.drop_height = 0.04;
+  EXPECT_GT(TopOfWalls(tube, PouredHeight(tube, EntryOf(tube).vessel(tube))), 0.04);
+}
+
+TEST(Headroom, TappedGrainsHaveRoomForSomeStrokes) {
+  Case c = Shallow(RigKind::kTappedDensity);
+  c.filling.kind = FillingKind::kDense;
+  c.rig.tapped_density.taps.height = 0.014;
+  EXPECT_GT(TopOfWalls(c, 0.004), 0.004 + 3 * 0.014);
+}
+
+// 7 of 454 grains lay beside the cylinder, and the bed was said to be denser for it.
+TEST(Headroom, NoPouredGrainLandsBesideItsCylinder) {
+  Case c = Shallow(RigKind::kTappedDensity);
+  c.rig.tapped_density = {.diameter = 0.01, .taps = {.count = 1, .height = 1e-3}};
+  const auto rig = Ran(c);
+  const auto grains = rig->simulation().Particles();
+  ASSERT_GT(grains.size(), 400u);
+  for (const engine::Particle& p : grains) {
+    EXPECT_LT(std::hypot(p.position.x, p.position.y), 0.005);
+  }
+}
+
+}  // namespace headroom_test
+}  // namespace talus::rigs
