@@ -1,5 +1,6 @@
 #include "experiments/trials/engines/talus_engine.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -60,6 +61,16 @@ void DrawHeap(const rigs::Case& rig_case, const std::filesystem::path& folder,
   result["profile"]["num_views"] = num_views;
 }
 
+// The same grains are f times as large as others here: of these as many more have fallen.
+void TakeScaleFactor(double factor, nlohmann::ordered_json& conditions,
+                     nlohmann::ordered_json& observables) {
+  const double there = conditions.value("scale_factor", factor);
+  conditions["scale_factor"] = factor;
+  const auto fallen = observables.find(rigs::MetricName(rigs::Observable::kNumFallen));
+  if (fallen == observables.end() || !fallen->is_number() || there == factor) return;
+  *fallen = fallen->get<double>() * std::pow(factor / there, 3);
+}
+
 // The picture and the result as a run of this case would have them; those of a camera stay.
 void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
@@ -67,7 +78,7 @@ void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   if (!rig_case.rig.camera) DrawHeap(rig_case, folder, result);
   if (const auto conditions = result.find("conditions"); conditions != result.end()) {
-    (*conditions)["scale_factor"] = rig_case.coarse_graining.scale_factor;
+    TakeScaleFactor(rig_case.coarse_graining.scale_factor, *conditions, result["observables"]);
   }
   result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
   base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
@@ -83,6 +84,32 @@ TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   EXPECT_EQ(engine.WhyNotTaken(other, root / "seen"),
             "powder.material.sliding_friction is 0.5 there and 0.4 here");
   EXPECT_FALSE(fs::exists(root / "other"));
+  fs::remove_all(root);
+}
+
+// The grains that are simulated are the same; those that they stand for are eight times as many.
+TEST(TalusEngine, ARunOfOtherTrueGrainsIsTakenOverWithTheirNumber) {
+  const fs::path root = fs::temp_directory_path() / ("talus_scaled_" + std::to_string(::getpid()));
+  rigs::Case seen = SmallHeap({.width = 60,
+                               .height = 40,
+                               .pixel_size = 3e-4,
+                               .center_x = 30,
+                               .baseline = 36,
+                               .plate_diameter = 0.01});
+  seen.powder.material.sliding_friction = 0.2;
+  Simulate(seen, root / "seen");
+  rigs::Case finer = seen;
+  finer.powder.sizes.diameter = 0.75e-3;
+  finer.coarse_graining.scale_factor = 2;
+  TalusEngine engine("talus");
+  ASSERT_EQ(engine.WhyNotTaken(finer, root / "seen"), std::nullopt);
+  ASSERT_TRUE(engine.TakeOver(finer, root / "seen", root / "taken"));
+  const auto fallen = [&](const char* folder) -> double {
+    const std::string text = base::ReadFile(root / folder / "result.json");
+    return nlohmann::json::parse(*base::IfWhole(text))["observables"]["num_fallen"];
+  };
+  ASSERT_GT(fallen("seen"), 0);
+  EXPECT_EQ(fallen("taken"), 8 * fallen("seen"));
   fs::remove_all(root);
 }
 
