@@ -32,14 +32,15 @@ struct ExperimentStanding {
   double predicted = std::numeric_limits<double>::quiet_NaN();
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();
   double implausibility = 0;              // Posterior::Implausibility [standard deviations]
+  double caution = 1;                     // times the predictions' sds in that [-], >= 1
   double model_error = 1;                 // that the posterior counts with, in run-to-run sds [-]
   double model_error_told = 0;            // ModelError::told [-], in [0, 1]; 0: stated
   std::vector<NumberStanding> numbers{};  // in the order of the target's
 
   static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},
                                              {"predicted_sd", "predicted_objective_sd"}};
-  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, model_error, model_error_told,
-               numbers);
+  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, caution, model_error,
+               model_error_told, numbers);
 };
 
 // Where a given set stands in the posterior.

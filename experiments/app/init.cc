@@ -46,6 +46,11 @@ std::filesystem::path SeenFrom(const std::filesystem::path& spec,
 void Say(const imaging::PhotoSet& set, const std::string& unread) {
   std::cout << imaging::ReadingText(set) << " (name another with --pattern)\n";
   if (!unread.empty()) std::cout << "note: " << unread << '\n';
+  if (set.missing.empty()) return;
+  const auto more = set.missing.size() - 1;
+  std::cout << "note: " << base::Printable(set.missing.front())
+            << (more > 0 ? ", and " + std::to_string(more) + " more are missing" : "")
+            << ": the spec goes on without (allow_missing_views)\n";
 }
 
 // Photographs one by one: what their names say of runs, or else views of one heap.
@@ -58,6 +63,7 @@ void AddRuns(const InitArguments& arguments, campaign::SpecAnswers& answers) {
   problems.ThrowIfAny();
   const std::vector<std::filesystem::path> files(arguments.photos.begin(), arguments.photos.end());
   const imaging::PhotoSet set = imaging::SortPhotos(files, answers.pattern);
+  answers.missing = set.missing;
   std::size_t matched = 0;
   for (const imaging::PhotoFiles& run : set.runs) {
     imaging::PhotoRun named{.name = run.run, .photos = {}};
@@ -83,6 +89,7 @@ void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answ
   }
   const imaging::PhotoSet set = imaging::FindPhotos(first, answers.pattern);
   answers.pattern = set.pattern;
+  answers.missing = set.missing;
   std::cout << first << ": ";
   Say(set, imaging::UnreadText(first, set));
   answers.folder = SeenFrom(arguments.out, first);
@@ -98,6 +105,7 @@ void MeasureTable(const std::filesystem::path& out, campaign::SpecAnswers& answe
   options.scale = answers.scale;
   if (!answers.folder.empty()) options.photos = folder / answers.folder;
   options.runs = answers.runs;
+  options.allow_missing_views = !answers.missing.empty();
   for (imaging::PhotoRun& run : options.runs) {
     for (auto& photo : run.photos) photo = folder / photo;
   }

@@ -248,6 +248,7 @@ double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
 
 ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
   ExperimentStanding standing{.name = setup_.target->name,
+                              .caution = caution_,
                               .model_error = model_error_.value,
                               .model_error_told = model_error_.told};
   if (has_image()) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text/counted.h"
+#include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/campaign/answer/fit.h"
@@ -12,11 +13,6 @@
 
 namespace talus::campaign {
 namespace {
-
-// "`talus resume DIR --add-simulations 20`"
-std::string ResumeCommand(double num_more) {
-  return "`talus resume DIR --add-simulations " + std::to_string(std::llround(num_more)) + "`";
-}
 
 std::string BudgetText(const Alarm& a) {
   return a.reason.value_or("") + " (" + ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
@@ -84,6 +80,10 @@ std::string MissesText(const Alarm& a) {
 
 }  // namespace
 
+std::string ResumeCommand(double num_more) {
+  return "`talus resume DIR --add-simulations " + std::to_string(std::llround(num_more)) + "`";
+}
+
 std::string AlarmText(const Alarm& a) {
   const std::string factor = "scale factor " + base::ShortNumber(a.scale_factor.value_or(1));
   const std::string experiment = Quoted(a.experiment);
@@ -134,8 +134,8 @@ std::string AlarmText(const Alarm& a) {
       return MissesText(a);
     case AlarmKind::kConfirmationFailed:
       return "all " + base::Counted(std::lround(a.value.value_or(0)), "simulation") + " of " +
-             experiment +
-             " by the recommended set with fresh seeds failed (the last: " + a.reason.value_or("") +
+             experiment + " by the recommended set with fresh seeds failed (the last: " +
+             base::OneLine(a.reason.value_or("")) +
              "): nothing stands on this answer before the cause is known";
     case AlarmKind::kWorseThanObserved:
       return "trial " + std::to_string(a.trial.value_or(0)) +

@@ -95,6 +95,9 @@ struct Alarm {
 
 inline constexpr int kMoreSimulations = 20;  // to go on with where no better number is known
 
+// "`talus resume DIR --add-simulations 20`".
+std::string ResumeCommand(double num_more);
+
 // What was doubted of an experiment's photographs, under the name that it has there.
 Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment);
 

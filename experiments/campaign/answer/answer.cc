@@ -4,6 +4,7 @@
 
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/plain_number.h"
 #include "experiments/journal/objective.h"
 #include "experiments/journal/record_json.h"
 
@@ -74,6 +75,14 @@ bool AsksForSimulations(const Answer& answer) {
   return HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
                            AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
                            AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
+}
+
+std::string ImplausibilityText(const ResultStanding& standing) {
+  constexpr double kMuch = 2;  // below that a reader who divides comes near
+  std::string text = base::PlainNumber(standing.implausibility, 2);
+  if (standing.caution < kMuch) return text;
+  return text + ", with the prediction's ± counted " + base::PlainNumber(standing.caution, 2) +
+         " times, as few simulations are at the smallest scale factor";
 }
 
 int MoreSimulations(const Answer& answer) {

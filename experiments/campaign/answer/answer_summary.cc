@@ -118,8 +118,7 @@ std::string ExperimentLines(const Answer& answer) {
     if (line.empty()) line = "not simulated again";
     text += "  " + Padded(e.name + "  ", 18) + line;
     if (standing != nullptr) {
-      text += "; implausibility " + base::PlainNumber(standing->implausibility, 2) +
-              ModelErrorText(*standing);
+      text += "; implausibility " + ImplausibilityText(*standing) + ModelErrorText(*standing);
     }
     text += "\n";
   }

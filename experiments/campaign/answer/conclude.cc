@@ -323,7 +323,11 @@ void AddAgreement(const Planner& planner, const CampaignEvidence& evidence, Answ
 
 // What the answer, made without it, predicts of the experiment that is held out.
 void AddHeldOut(const Planner& planner, const CampaignEvidence& evidence, Answer& result) {
-  if (!evidence.spec.hold_out || !result.posterior) return;
+  if (!evidence.spec.hold_out) return;
+  if (!result.posterior) {
+    result.held_out = ResultHeldOut{.name = *evidence.spec.hold_out};
+    return;
+  }
   std::erase_if(result.posterior->experiments,
                 [&](const ResultStanding& e) { return e.name == *evidence.spec.hold_out; });
   result.held_out = HoldOut(ViewOf(planner, evidence), *evidence.spec.hold_out).predicted;

@@ -220,7 +220,7 @@ std::string ConsideredText(const ConsideredSet& c) {
               base::ShortNumber(e.predicted_sd) + " at scale factor " +
               base::ShortNumber(c.target_scale_factor) + ", ";
     }
-    text += "implausibility " + base::ShortNumber(e.implausibility) + "\n";
+    text += "implausibility " + ImplausibilityText(e) + "\n";
     text += NumbersText(c, e);
   }
   text += "  nearest trials\n";

@@ -120,6 +120,10 @@ std::vector<PartialAnswer> AnswersAlone(const JointView& view) {
 }
 
 std::vector<std::string> HeldOutFacts(const ResultHeldOut& h, const std::string& objective_unit) {
+  if (std::isnan(h.implausibility)) {
+    return {"not predicted: there is no posterior yet; more simulations make one (" +
+            ResumeCommand(kMoreSimulations) + ")"};
+  }
   std::vector<std::string> facts;
   if (std::isfinite(h.predicted)) {
     facts.push_back("image: the predicted one differs from that of " + h.name + " by " +

@@ -33,8 +33,10 @@ struct ResultHeldOut {
   // Objective of the predicted mean image at the answer; NaN without images.
   double predicted = std::numeric_limits<double>::quiet_NaN();
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();
-  double implausibility = 0;        // at the answer [standard deviations]
-  double least_implausibility = 0;  // over the others' joint 90 % region
+  // At the answer [standard deviations], and the least over the others' joint 90 % region; NaN
+  // where there is no posterior yet to predict it by.
+  double implausibility = std::numeric_limits<double>::quiet_NaN();
+  double least_implausibility = std::numeric_limits<double>::quiet_NaN();
   std::vector<PredictedNumber> numbers{};
 
   static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},

@@ -17,7 +17,8 @@ std::string OutcomeText(const TrialProgress& trial) {
             rigs::ShownNumber(number.name, number.value);
   }
   if (text.empty()) return "what was measured is not defined of it";
-  return text + (trial.best ? ", the best so far" : "");
+  if (!trial.best) return text;
+  return text + ", the best so far" + (trial.scale_factor ? " at the smallest scale factor" : "");
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ struct TrialProgress {
   std::optional<double> objective{};      // none where it is not defined
   std::string unit{};                     // of the objective, for people: "mm²"
   std::vector<NumberProgress> numbers{};  // those of the experiment that it has
-  bool best = false;                      // the lowest objective so far
+  bool best = false;                      // the lowest objective so far, of the first
+                                          // experiment at the smallest scale factor
   std::string reason{};                   // of a failure
   double duration = 0;                    // [s]
 

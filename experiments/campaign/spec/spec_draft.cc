@@ -12,6 +12,7 @@
 #include "base/problems.h"
 #include "base/text/key_text.h"
 #include "base/text/number_text.h"
+#include "base/text/printable.h"
 #include "base/units.h"
 #include "experiments/rigs/case/case_warnings.h"
 
@@ -53,12 +54,22 @@ std::string ScaleFactors(double grains_across) {
   return "[" + base::ShortNumber(coarse) + ", " + base::ShortNumber(fine) + "]";
 }
 
+std::string MissingViews(const SpecAnswers& answers) {
+  if (answers.missing.empty()) return "";
+  const std::size_t more = answers.missing.size() - 1;
+  return "    // " + base::Printable(answers.missing.front()) +
+         (more == 0 ? "" : ", and " + std::to_string(more) + " more are missing") +
+         ": true goes on without them and\n    // without photographs that cannot be used, and "
+         "says "
+         "which; false refuses both\n    \"allow_missing_views\": true,\n";
+}
+
 std::string Photographs(const SpecAnswers& answers) {
   if (answers.runs.empty()) {
     return "    \"photos\": " + Quoted(answers.folder.string()) +
            ",\n    // {run} is the heap, {view} the direction it was photographed from; * is "
            "anything\n    \"pattern\": " +
-           Quoted(answers.pattern) + ",\n";
+           Quoted(answers.pattern) + ",\n" + MissingViews(answers);
   }
   std::string text =
       "    // a run a heap; add one for each further heap of the same powder\n"
@@ -73,7 +84,7 @@ std::string Photographs(const SpecAnswers& answers) {
     }
     text += "]}";
   }
-  return text + "],\n";
+  return text + "],\n" + MissingViews(answers);
 }
 
 // The largest surface energy that is searched [J/m²]: the published fine metal powders lie below

@@ -227,7 +227,7 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   EXPECT_EQ(experiments[1].name, "fast lift");
   EXPECT_EQ(result.experiments.at(1).numbers.at(0).value, 23e-6);
   EXPECT_EQ(result.posterior.value().experiments.size(), 2u);
-  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("mass fallen 2"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("mass fallen predicted 2"));
   EXPECT_THAT(StatusText(folder), HasSubstr("fast lift at scale factor 2: "));
   EXPECT_THAT(analysis::TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
   // Trials are compared with the experiment that they are of.
