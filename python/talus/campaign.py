@@ -35,9 +35,12 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     try:
         program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
                     (["--hold-out", hold_out] if hold_out is not None else []), progress)
-    except BaseException:
-        if is_new and not (folder / "journal.sqlite").exists():
-            file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
+    except BaseException as error:
+        if not is_new or (folder / "journal.sqlite").exists():
+            raise
+        file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
+        if isinstance(error, ConfigError):  # of a file that nobody has written
+            raise ConfigError(re.sub(re.escape(str(file)) + r":\d+:\d+:", "spec:", str(error))) from None
         raise
     return Campaign(folder)._warned(progress)
 

@@ -47,7 +47,7 @@ def _without_warnings(words):
 
 
 def _raise(code, text):
-    words = text.strip().removeprefix("talus: ") or f"talus ended with status {code}"
+    words = text.strip().removeprefix("talus: ").removesuffix("\nRun with --help for more information.") or f"talus ended with status {code}"
     if code == 2:
         raise ConfigError(words)
     if code == 130:

@@ -22,6 +22,7 @@ from chance_arguments import chance_arguments
 from commented_json import read_json
 
 DECK = """#!/bin/sh
+# What tells the experiments apart: plate {{ plate_diameter }} m.
 setsid sleep 300 &
 (sleep 300 &)
 sleep 0.05

@@ -21,7 +21,8 @@ talus, source = sys.argv[1], pathlib.Path(sys.argv[2])
 cluster = source / "tests/system/slurm/one_node_cluster"
 # A cone of spheres whose height follows the parameters: an engine that takes a few milliseconds.
 # It waits while there is a file `hold` beside the campaign, where it notes each run of a trial.
-DECK = """echo run >>../../../runs_$(basename "$PWD")
+DECK = """# What tells the experiments apart: {{ lift_velocity }} m/s.
+echo run >>../../../runs_$(basename "$PWD")
 echo $$ >pid
 while [ -e ../../../hold ]; do sleep 0.1; done
 awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} -v seed={{ seed }} 'BEGIN {
