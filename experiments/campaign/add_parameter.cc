@@ -101,8 +101,7 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const AddedParameter& added) {
   const double value = ValueOfTrials(spec, added.name);
   if (!(value >= added.low && value <= added.high)) {
     throw base::ConfigError("--search: " + added.name + ": the range must hold " +
-                            base::ShortNumber(value) +
-                            (UnitOf(added.name).empty() ? "" : " " + UnitOf(added.name)) +
+                            base::WithUnit(value, UnitOf(added.name)) +
                             ", which the trials so far were made with");
   }
   CampaignSpec with = spec;

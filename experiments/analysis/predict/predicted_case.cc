@@ -73,8 +73,8 @@ std::vector<std::string> OtherProperties(const JointView& view, const base::Json
         std::ranges::count(view.record.parameters, key, &journal::ParameterRecord::name) > 0;
     if (is_searched || !file.root.contains(stated / key) || taken[key] == value) return;
     const std::string unit(base::SiUnit(info.dimension));
-    texts.push_back(base::Spaced(key) + " " + base::ShortNumber(taken[key].get<double>()) +
-                    (unit.empty() ? "" : " " + unit) + " instead of " + base::ShortNumber(value));
+    texts.push_back(base::Spaced(key) + " " + base::WithUnit(taken[key].get<double>(), unit) +
+                    " instead of " + base::ShortNumber(value));
   });
   return texts;
 }

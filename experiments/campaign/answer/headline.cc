@@ -1,6 +1,7 @@
 #include "experiments/campaign/answer/headline.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
@@ -176,8 +177,8 @@ std::string KindText(const Told& told, VerdictKind kind) {
 std::string LeftOpen(const Answer& answer) {
   std::vector<std::string> open;
   for (const MeasurementFit& fit : FitsOf(answer)) {
-    const double close = fit.number.empty() ? kCloseRuns : kCloseNumber;
-    if (fit.meets == Meets::kUnknown && fit.off > close) open.push_back(SpokenOf(fit));
+    const bool is_judged = !std::isnan(fit.off);  // and is no fit, or it would be met
+    if (fit.meets == Meets::kUnknown && is_judged) open.push_back(SpokenOf(fit));
   }
   return base::Listed(open);
 }

@@ -60,8 +60,7 @@ std::string MissingViews(const SpecAnswers& answers) {
   return "    // " + base::Printable(answers.missing.front()) +
          (more == 0 ? "" : ", and " + std::to_string(more) + " more are missing") +
          ": true goes on without them and\n    // without photographs that cannot be used, and "
-         "says "
-         "which; false refuses both\n    \"allow_missing_views\": true,\n";
+         "says which; false refuses both\n    \"allow_missing_views\": true,\n";
 }
 
 std::string Photographs(const SpecAnswers& answers) {

@@ -62,13 +62,15 @@ void DrawHeap(const rigs::Case& rig_case, const std::filesystem::path& folder,
 }
 
 // The same grains are f times as large as others here: of these as many more have fallen.
-void TakeScaleFactor(double factor, nlohmann::ordered_json& conditions,
-                     nlohmann::ordered_json& observables) {
-  const double there = conditions.value("scale_factor", factor);
-  conditions["scale_factor"] = factor;
-  const auto fallen = observables.find(rigs::MetricName(rigs::Observable::kNumFallen));
-  if (fallen == observables.end() || !fallen->is_number() || there == factor) return;
-  *fallen = fallen->get<double>() * std::pow(factor / there, 3);
+void TakeScaleFactor(double factor, nlohmann::ordered_json& result) {
+  const auto conditions = result.find("conditions");
+  if (conditions == result.end()) return;
+  const double there = conditions->value("scale_factor", factor);
+  (*conditions)["scale_factor"] = factor;
+  const nlohmann::ordered_json::json_pointer fallen("/observables/" +
+                                                    rigs::MetricName(rigs::Observable::kNumFallen));
+  if (there == factor || !result.contains(fallen) || !result[fallen].is_number()) return;
+  result[fallen] = result[fallen].get<double>() * std::pow(factor / there, 3);
 }
 
 // The picture and the result as a run of this case would have them; those of a camera stay.
@@ -77,9 +79,7 @@ void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   if (!rig_case.rig.camera) DrawHeap(rig_case, folder, result);
-  if (const auto conditions = result.find("conditions"); conditions != result.end()) {
-    TakeScaleFactor(rig_case.coarse_graining.scale_factor, *conditions, result["observables"]);
-  }
+  TakeScaleFactor(rig_case.coarse_graining.scale_factor, result);
   result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
   base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));
   base::WriteFileAtomically(folder / "result.json",
