@@ -149,12 +149,7 @@ std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
                      "is that of an experiment of the campaign: give the test its own");
   }
   if (problems.empty()) ValidateAsAdded(view, test, problems);
-  try {
-    problems.ThrowIfAny();
-    return "";
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
+  return problems.Text();
 }
 
 std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test) {
