@@ -81,11 +81,14 @@ std::vector<base::Sphere> SpheresOf(const py::handle& array, double plate_diamet
 
 double NumberOf(const py::handle& value, const std::string& name) {
   try {
-    return value.cast<double>();
+    if (!py::isinstance<py::bool_>(value)) return value.cast<double>();
   } catch (const py::cast_error&) {
-    throw base::ConfigError(name + ": must be a number; it is a " +
-                            py::str(py::type::of(value).attr("__name__")).cast<std::string>());
+    if (py::isinstance<py::int_>(value)) {
+      throw base::ConfigError(name + ": is beyond 1.8e308, the largest number there is");
+    }
   }
+  throw base::ConfigError(name + ": must be a number; it is a " +
+                          py::str(py::type::of(value).attr("__name__")).cast<std::string>());
 }
 
 std::string JsonOf(const py::handle& value) {

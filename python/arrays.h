@@ -24,7 +24,8 @@ GrayArray ArrayOf(const imaging::GrayImage& image);
 // sphere is wider than the plate, as in a table in millimetres, or some are masked.
 std::vector<base::Sphere> SpheresOf(const pybind11::handle& array, double plate_diameter);
 
-// NaN and infinity are numbers. Throws ConfigError that starts with `name` where it is none.
+// NaN and infinity are numbers, True and False are none. Throws ConfigError that starts with `name`
+// where it is none.
 double NumberOf(const pybind11::handle& value, const std::string& name);
 
 // A dictionary with the keys of a profile's frame, as spec files and result.json have them.

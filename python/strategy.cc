@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/json/json_reader.h"
 #include "base/problems.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/plan/stop.h"
 #include "optimizer/space/point_rows.h"
@@ -27,8 +28,11 @@ std::vector<float> FieldOf(const imaging::GrayImage& image) {
 // The bounds, but for what decimals lose on their way through Python.
 void RequireInside(const optimizer::Parameter& parameter, double native, double unit) {
   if (unit >= -1e-9 && unit <= 1 + 1e-9) return;  // false for NaN, too
-  throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native) +
-                          " is outside the searched range");
+  constexpr int kDigits = 10;  // so that a value just beyond a bound does not read as the bound
+  throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native, kDigits) +
+                          " is outside the searched range, " +
+                          base::ShortNumber(parameter.lowest(), kDigits) + " to " +
+                          base::ShortNumber(parameter.highest(), kDigits));
 }
 
 // A fixed value, or one of the levels: the strategy has no other.
@@ -97,8 +101,8 @@ Eigen::VectorXd Strategy::PointOf(const py::dict& values) const {
     native.push_back(NumberOf(values[parameter.name.c_str()], parameter.name));
   }
   if (values.size() > native.size()) {
-    throw base::ConfigError("values: have names that are no parameters'; give " +
-                            std::to_string(native.size()) + " of the strategy's own");
+    throw base::ConfigError("values: have names that are no parameters'; there are " +
+                            base::Joined(space_.parameters, ", ", &optimizer::Parameter::name));
   }
   const Eigen::VectorXd unit = space_.ToUnit(native);
   const std::vector<int> free = space_.Free();

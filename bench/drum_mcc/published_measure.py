@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """published_measure.py TRIAL PHOTO: how far a simulated drum is from its photograph by the published calibration's
 own code, which is not the area between "any picture" and "any picture" that `drum_residual` measures.
 
@@ -9,6 +9,7 @@ compared inside √0.6 of the drum's radius.
 
 TRIAL needs `state_0000.vtp` … at the pictures' times (`outputs.times` of its case, from one picture to the next 10 ms).
 """
+import argparse
 import pathlib
 import sys
 
@@ -76,13 +77,14 @@ def closed(image):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__.splitlines()[0])
-    trial, photo = map(pathlib.Path, sys.argv[1:])
-    dark = 255 - numpy.array(Image.open(photo).convert("L"))[::-1].T
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("trial", metavar="TRIAL", type=pathlib.Path)
+    parser.add_argument("photo", metavar="PHOTO", type=pathlib.Path)
+    asked = parser.parse_args()
+    dark = 255 - numpy.array(Image.open(asked.photo).convert("L"))[::-1].T
     size = dark.shape[0]
     counts = counted(size)
-    image = numpy.where(counts, swept(trial, size), 0)
+    image = numpy.where(counts, swept(asked.trial, size), 0)
     simulated = closed((image / image.max() * 255).astype(numpy.uint8)) > SIMULATED_CUT
     seen = closed(numpy.where(counts, dark, 0).astype(numpy.uint8)) > PHOTO_CUT
     alone = [pixel_area(size) * (a & ~b & counts).sum() for a, b in ((seen, simulated), (simulated, seen))]

@@ -1,14 +1,14 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """single_drums.py TALUS PHOTOS OUT [NAME ...]: drums of true grains at 15 and 45 rpm, one set each, and by how much more powder than the
 photographs they show [mm^2], both cut at half of the mean picture, inside √0.6 of the drum's radius.
 
 NAME of SETS; all of them without one. A drum takes 3 to 5 min of a core. The photographs, gd_15rpm.png and gd_45rpm.png, lie in PHOTOS.
 OUT/NAME_15rpm has the states that published_measure.py reads.
 """
+import argparse
 import json
 import pathlib
 import subprocess
-import sys
 
 import numpy
 from drum_pictures import counted, pixel_area
@@ -57,17 +57,21 @@ def area(picture, light, bed):
 
 
 def main():
-    if len(sys.argv) < 4:
-        sys.exit(__doc__.splitlines()[0])
-    talus, photos, out = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("talus", metavar="TALUS")
+    parser.add_argument("photos", metavar="PHOTOS", type=pathlib.Path)
+    parser.add_argument("out", metavar="OUT", type=pathlib.Path)
+    parser.add_argument("names", metavar="NAME", nargs="*", choices=SETS)
+    asked = parser.parse_args()
+    out = asked.out
     out.mkdir(parents=True, exist_ok=True)
-    for name in sys.argv[4:] or SETS:
+    for name in asked.names or SETS:
         more = []
         for rpm, start in zip((15, 45), SETS[name][-1]):
             place = out / f"{name}_{rpm}rpm"
             place.with_suffix(".json").write_text(json.dumps(case(SETS[name], rpm, start), indent=1))
-            subprocess.run([talus, "simulate", place.with_suffix(".json"), "--out", place], check=True, stdout=subprocess.DEVNULL)
-            more.append(area(place / "profile.png", 1, 0) - area(photos / f"gd_{rpm}rpm.png", LIGHT, BED))
+            subprocess.run([asked.talus, "simulate", place.with_suffix(".json"), "--out", place], check=True, stdout=subprocess.DEVNULL)
+            more.append(area(place / "profile.png", 1, 0) - area(asked.photos / f"gd_{rpm}rpm.png", LIGHT, BED))
         print(f"{name}: {more[0]:+.0f} mm^2 at 15 rpm, {more[1]:+.0f} at 45, swelling {more[1] - more[0]:.0f}", flush=True)
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """swelling.py DRUM_RESIDUAL PHOTOS CAMPAIGN: what moves the drum's surface at each speed, over a campaign's trials at true
 grain size.
 
@@ -6,12 +6,12 @@ Of each trial the area that the simulation covers beyond the photograph, less wh
 for each speed the plane through these over the parameters, by least squares. Where all parameters move both speeds alike, no set meets
 both. Trials whose surface is more than 120 mm^2 off are left out, as a plane does not reach so far.
 """
+import argparse
 import json
 import math
 import pathlib
 import re
 import subprocess
-import sys
 
 import numpy
 
@@ -35,7 +35,12 @@ UNITS = {"sliding_friction": ("+10 %", lambda v: math.log(v) / math.log(1.1)),
 
 
 def main():
-    drum_residual, photos, campaign = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("drum_residual", metavar="DRUM_RESIDUAL")
+    parser.add_argument("photos", metavar="PHOTOS", type=pathlib.Path)
+    parser.add_argument("campaign", metavar="CAMPAIGN", type=pathlib.Path)
+    asked = parser.parse_args()
+    campaign = asked.campaign
     searched = [p["name"] for p in json.loads((campaign / "campaign.json").read_text())["parameters"]]
     names = [name for name in searched if name in UNITS]
     trials = {speed: [] for speed in SPEEDS}
@@ -45,7 +50,7 @@ def main():
             continue
         speed = list(SPEEDS)[trial["experiment"]]
         at = [UNITS[name][1](value) for name, value in zip(searched, trial["values"]) if name in UNITS]
-        trials[speed].append((surplus(drum_residual, photos / SPEEDS[speed], place.parent), at))
+        trials[speed].append((surplus(asked.drum_residual, asked.photos / SPEEDS[speed], place.parent), at))
     for speed, all_of_it in trials.items():
         near = [t for t in all_of_it if abs(t[0]) < FAR]
         plane = numpy.array([[1] + at for _, at in near])

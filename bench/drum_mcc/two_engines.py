@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """two_engines.py TALUS LIGGGHTS OUT [--rpm 15] [--modulus 5e5]: the drum of single_drums.py's set "best" (ACCES' best friction, a softer
 powder) in this program and in LIGGGHTS, from the same settled grains, with the same walls, law and pictures: by how much the two mean
 silhouettes differ inside √0.6 of the drum's radius, cut at half, and how much powder lies on either side of the axis. 2 and 20 min of a core.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """drum_table.py TALUS FOLDER [--speeds 30] [--within 1.15] [--truths 24]: how many evaluations
 `talus optimize` takes to find a set in a table of simulated drums, by their images.
 

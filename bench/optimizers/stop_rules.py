@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """stop_rules.py TRACE.csv… [--rule NAME] [--below X]: what rules that end a search would have lost.
 
 TRACE.csv is what search_trace printed. Each rule ends a run at the first look at which its

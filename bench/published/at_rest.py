@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """at_rest.py TALUS FOLDER [--scale-factor F] [--set N] [--softness S] [--interval MS] [--distance D]
 
 What share of grain steps goes to grains at rest? One poured heap of Ti6Al4V; states every 10 ms. Of each state's grains,

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Two cases of Dosta and others 2024 (Computer Physics Communications 296, 109066) beside LIGGGHTS on the same input:
 
 penetration   a steel sphere of 20 mm falls at 5 m/s, from a height of 60 mm, into 25 000 spheres of 2 mm in a box; its

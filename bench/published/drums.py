@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Turning drums that others have simulated, set by set, with ours. The table has the columns sliding_friction,
 rolling_friction, restitution, drum_angle_deg, drum_angle_sd_deg; it is not part of this repository
 (docs/verification.md). A drum takes a core minute. Exit status 0 where every angle is within 1.5 deg.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """fine_twins.py TALUS FOLDER [--powder ti6al4v|al6061] [--first N] [--last N] [--true F] [--scale-factors F…]
 [--core-time S] [--tests heap,all]: do the examples of fine powders find a virtual truth?
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Heaps of a lifted tube that others have simulated, set by set, with ours. The table has the columns sliding_friction,
 rolling_friction, restitution, angle_deg, angle_sd_deg; it is not part of this repository (docs/verification.md). A heap
 takes half a core minute. Exit status 0 where the rms of the difference is at most 1.2 deg.

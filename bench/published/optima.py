@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """optima.py TALUS FOLDER [--powder ti6al4v|al6061] [--workers N] [--scale-factors F…] [--beyond F [--make SET…]]
 
 Predicts the heaps of published optima from coarse ones. Both powders have millions of grains; here they are simulated

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Rates of flow through an orifice that others have simulated, set by set, with ours. The table has the columns
 sliding_friction, rolling_friction, restitution, flow_g_per_s, flow_sd_g_per_s; it is not part of this repository
 (docs/verification.md). A set takes two thirds of a core minute. Exit status 0 where every rate is within 5 %.

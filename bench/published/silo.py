@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The silo of Dosta and others 2024 (Computer Physics Communications 296, 109066), smaller and with a fill of our own, against
 Beverloo's law:
 

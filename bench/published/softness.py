@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """softness.py TALUS FOLDER [--powder NAME]… [--variant NAME]… [--first-seed N] [--last-seed N] [--workers N]
 
 How soft is soft enough? Heaps of Ti6Al4V at f = 12, poured, with grains (and walls) of the published Young's modulus Y,

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """demo_nuisances.py TALUS FOLDER [--first 16] [--last 21] [--core-time 1200]: the demo's photographs, the restitution and
 the rolling damping of its powder unknown.
 

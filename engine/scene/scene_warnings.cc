@@ -4,6 +4,9 @@
 #include <sstream>
 #include <utility>
 
+#include "base/text/number_text.h"
+#include "engine/laws/rolling_step.h"
+
 namespace talus::engine {
 
 std::vector<std::string> AdhesionWarnings(const ContactModels& models,
@@ -31,6 +34,51 @@ void AddLostSizes(const SceneSpec& spec, const Bulk& bulk, const std::string& pl
   if (!lost.empty()) warnings.push_back(place + ".sizes: " + lost);
 }
 
+// The smallest sphere of each material, 0 without any [m], and what all of them fill [m³].
+struct Grains {
+  std::vector<double> smallest;
+  double volume = 0;
+
+  void Add(int material, double radius, double more) {
+    double& least = smallest[static_cast<std::size_t>(material)];
+    least = least > 0 ? std::min(least, radius) : radius;
+    volume += more;
+  }
+};
+
+Grains GrainsOf(const SceneSpec& spec, const Scene& scene) {
+  Grains grains{.smallest = std::vector<double>(scene.materials.size(), 0.0)};
+  for (const Particle& p : scene.particles) {
+    grains.Add(p.material, p.radius, SphereMass({.density = 1}, p.radius));
+  }
+  for (const auto& pour : spec.pours) {
+    const int material = MaterialIndex(spec, pour.material);
+    grains.Add(material, SizeCurve(pour.sizes).smallest() / 2,
+               pour.mass / scene.materials[static_cast<std::size_t>(material)].density);
+  }
+  return grains;
+}
+
+// A rolling dashpot that the step does not resolve.
+void AddRollingStep(const SceneSpec& spec, const Scene& scene, std::vector<std::string>& warnings) {
+  if (scene.models.rolling != Rolling::kEpsd) return;
+  const Grains grains = GrainsOf(spec, scene);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    if (grains.smallest[m] == 0) continue;
+    const int own = static_cast<int>(m);
+    const Material material = With(scene.materials[m], StatedOf(scene.pairs, own, own));
+    const double stress = BedStress(material.density, base::Norm(scene.gravity), grains.volume);
+    const double longest = LongestRollingStep(
+        MakePairConstants(material, material, scene.models),
+        {.radius = grains.smallest[m], .density = material.density, .stress = stress});
+    if (TimeStep(scene) <= longest) continue;
+    warnings.push_back("materials[" + std::to_string(m) +
+                       "].rolling_damping: its dashpot would keep the spheres of a bed spinning at "
+                       "this time step (docs/physics.md, M6): take a time_step of " +
+                       base::ShortNumber(longest, 2) + " s or less, or less damping");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
@@ -54,6 +102,7 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
          << " of the Rayleigh time of the smallest sphere; above 0.20 contacts are resolved poorly";
     warnings.push_back(text.str());
   }
+  AddRollingStep(spec, scene, warnings);
   if (spec.stop.steps && !spec.outputs.times.empty() &&
       spec.outputs.times.back() > static_cast<double>(*spec.stop.steps) * dt) {
     warnings.push_back("the last of outputs.times comes after stop.steps and is not written");

@@ -25,7 +25,7 @@ void AddAddExperimentCommand(CLI::App& app) {
   command->add_option("DIR", arguments->folder, "the campaign's folder")->required();
   command
       ->add_option("EXPERIMENT", arguments->file,
-                   "JSON file with one entry of `experiments` (docs/campaigns.md)")
+                   "JSON file with one entry of `experiments` (docs/experiments.md)")
       ->required();
   command->add_option("--core-time", arguments->core_time,
                       "for the search with it, as \"10 min\"; default: as much as it has used");

@@ -21,7 +21,7 @@ void AddOptimizeCommand(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("optimize", "finds the parameters that minimise what a command returns");
+      app.add_subcommand("optimize", "Find the parameters that minimise what a command returns");
   command->add_option("PROBLEM", options->problem, "problem.json: parameters, target, strategy")
       ->required();
   command->add_option("COMMAND", options->command, "after --: the command and its arguments")

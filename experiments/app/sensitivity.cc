@@ -78,7 +78,8 @@ void AddSensitivityCommand(CLI::App& app) {
                       "of its simulations, one of the campaign's; default: the coarsest");
   command
       ->add_option("--replicates", arguments->most_replicates,
-                   "simulations of each experiment at most, where fewer do not tell")
+                   "simulations of each experiment at most, where fewer do not tell; default: " +
+                       std::to_string(arguments->most_replicates))
       ->check(CLI::Range(analysis::kFirstReplicates, 1000));
   command->add_option(
       "--budget", arguments->budget,

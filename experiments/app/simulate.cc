@@ -15,7 +15,7 @@ void AddSimulateCommand(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("simulate", "simulates one bulk test (a case) or one explicit scene");
+      app.add_subcommand("simulate", "Simulate one bulk test (a case) or one explicit scene");
   command->add_option("INPUT", options->input, "case.json or scene.json")->required();
   command->add_option("--out", options->simulate.run.folder,
                       "folder for the results; default: the input's name without its ending");

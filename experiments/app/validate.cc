@@ -78,7 +78,8 @@ bool IsNuisance(const campaign::CampaignSpec& spec, const std::string& name) {
 std::string AimText(const campaign::CampaignSpec& spec) {
   long long num_numbers = 0;
   for (const campaign::ExperimentSpec& e : campaign::ExperimentsOf(spec)) {
-    if (e.images.HasImages()) return "minimising " + std::string(base::NameOf(spec.objective));
+    if (e.images.HasImages())
+      return "comparing images by " + std::string(base::NameOf(spec.objective));
     num_numbers += std::ssize(campaign::ScalarsOf(e));
   }
   return "meeting " + base::Counted(num_numbers, "number");

@@ -17,7 +17,10 @@ std::string ReasonOf(sqlite3* database) {
   const int code = sqlite3_errcode(database);
   const int system = sqlite3_system_errno(database);
   // A log that cannot be made beside it: by then the system's word is another.
-  if (code == SQLITE_CANTOPEN) return reason + "; is the disk full, or the folder read-only?";
+  if (code == SQLITE_CANTOPEN) {
+    return reason +
+           "; is the disk full, the folder read-only, or the path longer than some 500 bytes?";
+  }
   return system == 0 || code != SQLITE_IOERR ? reason : reason + " (" + std::strerror(system) + ")";
 }
 
@@ -205,12 +208,21 @@ Transaction::~Transaction() {
   } catch (const base::Error&) {
     // SQLite has rolled back already, as it does when the disk is full; the first error stands.
   }
+  try {
+    SyncFully();
+  } catch (const base::Error&) {
+    // A database that takes no pragma takes no commit either.
+  }
+}
+
+void Transaction::SyncFully() {
+  if (outlives_ == base::Outlives::kProgram) database_.Execute("PRAGMA synchronous = FULL");
 }
 
 void Transaction::Commit() {
   database_.Execute("COMMIT");
   done_ = true;
-  if (outlives_ == base::Outlives::kProgram) database_.Execute("PRAGMA synchronous = FULL");
+  SyncFully();
 }
 
 }  // namespace talus::journal

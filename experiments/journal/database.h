@@ -108,6 +108,8 @@ class Transaction {
   void Commit();
 
  private:
+  void SyncFully();  // again, as before it
+
   Database& database_;
   const base::Outlives outlives_;
   bool done_ = false;

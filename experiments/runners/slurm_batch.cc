@@ -92,6 +92,7 @@ void AddEnd(std::ostream& out, const Batch& batch) {
       << "  else echo $(($(date +%s%N) / 1000)); fi\n"
       << "}\n"
       << "write_end() {\n"
+      << "  cd \"$folder\" || return\n"  // the set-up may have gone elsewhere
       << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) $4 >"
       << kTaskEndFile << ".part\n"
       << "  mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"

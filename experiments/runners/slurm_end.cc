@@ -26,6 +26,8 @@ FinishedJob Finished(std::int64_t id, JobEnd end, std::string reason) {
 
 bool NeverBegan(const TaskEnd& end) { return end.in_set_up || end.status == kNoCommand; }
 
+bool WasKilled(const TaskEnd& end) { return end.status > 128; }
+
 FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
   FinishedJob finished = Finished(id, JobEnd::kExit, StatusText(end));
   finished.exit_status = end.status;
@@ -34,7 +36,7 @@ FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
   finished.host = end.host;
   if (NeverBegan(end)) {
     finished.end = JobEnd::kNotStarted;
-  } else if (end.status > 128) {
+  } else if (WasKilled(end)) {
     finished.end = JobEnd::kSignal;
   }
   if (end.restarts > 0) {

@@ -14,6 +14,9 @@ FinishedJob Finished(std::int64_t id, JobEnd end, std::string reason);
 // Whether the trial's command has never begun: the set-up has failed, or there is no such command.
 bool NeverBegan(const TaskEnd& end);
 
+// Whether a signal has ended it: Slurm has to say whose, for its memory, for its time, or nobody's.
+bool WasKilled(const TaskEnd& end);
+
 FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end);
 
 // What to add to the reason of a set-up that has failed: the last line that it has printed, and the

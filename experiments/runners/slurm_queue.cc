@@ -31,15 +31,17 @@ double NumberOf(std::string_view text) {
 }  // namespace
 
 bool IsUnfinished(const SlurmState& state) {
-  constexpr std::array<std::string_view, 12> kUnfinished{
-      "PENDING",  "RUNNING",   "COMPLETING", "CONFIGURING", "SUSPENDED", "STOPPED",
-      "RESIZING", "SIGNALING", "REQUEUED",   "REQUEUE_FED", "STAGE_OUT", "REQUEUE_HOLD"};
+  constexpr std::array<std::string_view, 14> kUnfinished{
+      "PENDING",   "RUNNING",      "COMPLETING",    "CONFIGURING", "SUSPENDED",
+      "STOPPED",   "RESIZING",     "SIGNALING",     "REQUEUED",    "REQUEUE_FED",
+      "STAGE_OUT", "REQUEUE_HOLD", "RESV_DEL_HOLD", "SPECIAL_EXIT"};
   return std::find(kUnfinished.begin(), kUnfinished.end(), state.name) != kUnfinished.end();
 }
 
 bool IsWaiting(const SlurmState& state) {
-  constexpr std::array<std::string_view, 5> kWaiting{"PENDING", "CONFIGURING", "REQUEUED",
-                                                     "REQUEUE_FED", "REQUEUE_HOLD"};
+  constexpr std::array<std::string_view, 7> kWaiting{"PENDING",     "CONFIGURING",  "REQUEUED",
+                                                     "REQUEUE_FED", "REQUEUE_HOLD", "RESV_DEL_HOLD",
+                                                     "SPECIAL_EXIT"};
   return std::find(kWaiting.begin(), kWaiting.end(), state.name) != kWaiting.end();
 }
 

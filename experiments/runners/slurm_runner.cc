@@ -193,9 +193,9 @@ bool SlurmRunner::Adopt(const Job& job, const std::string&) {
             .array = {},
             .requeues = last->num_submissions - 1};
   task.dropped = fs::exists(CancelMark(task));
-  if (const auto end = EndOf(job, task.batch, task.index)) {
-    if (NeverBegan(*end)) return false;  // whoever resumes has mended the set-up meanwhile
-  } else {
+  const auto end = EndOf(job, task.batch, task.index);
+  if (end && NeverBegan(*end)) return false;  // whoever resumes has mended the set-up meanwhile
+  if (!end || WasKilled(*end)) {
     task.array = ArrayOf(last->batch);
     if (task.array.empty()) return false;
   }
@@ -227,8 +227,7 @@ void SlurmRunner::CollectEndFiles() {
   std::vector<std::pair<Task, TaskEnd>> ended;
   for (const auto& [id, task] : tasks_) {
     const auto end = EndOf(task.job, task.batch, task.index);
-    // Slurm has to say why a command was killed: for its memory, for its time, or by nobody.
-    if (end && end->status <= 128) ended.emplace_back(task, *end);
+    if (end && !WasKilled(*end)) ended.emplace_back(task, *end);
   }
   for (const auto& [task, end] : ended) {
     FinishedJob finished = FinishedBy(task.job.id, end);

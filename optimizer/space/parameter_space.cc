@@ -7,12 +7,16 @@
 #include "base/nearest.h"
 #include "base/random.h"
 #include "base/text/name.h"
+#include "base/text/number_text.h"
 #include "optimizer/space/candidate_table.h"
 #include "optimizer/space/point_rows.h"
 #include "surrogate/same_point.h"
 
 namespace talus::optimizer {
 namespace {
+
+// The way to the unit cube and back costs a table's value its last bits.
+double AsWritten(double value) { return std::stod(base::ShortNumber(value, 15)); }
 
 int IndexOf(const std::vector<Parameter>& parameters, const std::string& name) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
@@ -194,6 +198,7 @@ std::vector<double> ParameterSpace::ToNative(const Eigen::VectorXd& unit) const 
   Eigen::Index i = 0;
   for (const Parameter& parameter : parameters) {
     native.push_back(parameter.fixed ? *parameter.fixed : parameter.ToNative(unit[i++]));
+    if (!candidates.empty()) native.back() = AsWritten(native.back());
   }
   return native;
 }

@@ -2,7 +2,6 @@
 import html
 import json
 import numbers
-import operator
 import os
 import pathlib
 import re
@@ -12,7 +11,7 @@ import sys
 
 from . import program
 from ._core import ConfigError, Error, decode_image, is_worked_on
-from .plain import plain
+from .plain import path_text, plain, truth, whole
 
 
 def calibrate(spec, out=None, hold_out=None, progress=True):
@@ -22,6 +21,9 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     its relative paths are meant from. `progress`: a function that is called
     with each event (a dictionary, as `talus calibrate --json` has them a line), True for a line on
     standard error and, at the end, the answer's warnings; False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
+    tell = program.teller(progress)
+    if out is not None:
+        out = path_text(out, "out")
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
@@ -29,12 +31,12 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
         file = folder.with_name(folder.name + ".json")
         is_new = _write_spec(spec, file)
     else:
-        file = pathlib.Path(spec)
+        file = pathlib.Path(path_text(spec, "spec"))
         folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
         is_new = False
     try:
         program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
-                    (["--hold-out", hold_out] if hold_out is not None else []), progress)
+                    (["--hold-out", hold_out] if hold_out is not None else []), tell)
     except BaseException as error:
         if not is_new or (folder / "journal.sqlite").exists():
             raise
@@ -85,7 +87,7 @@ class Campaign:
     and report write there."""
 
     def __init__(self, folder):
-        self.folder = pathlib.Path(folder).absolute()
+        self.folder = pathlib.Path(path_text(folder, "folder")).absolute()
         if not (self.folder / "journal.sqlite").exists():
             raise FileNotFoundError(f"{self.folder}: holds no campaign; `talus calibrate SPEC` begins one")
 
@@ -273,7 +275,7 @@ class Campaign:
 
     def profile(self, trial):
         """A trial's average numerical heap profile [array of bytes, rows and columns]."""
-        found = self._query("select png from profiles where trial = ?", operator.index(trial))
+        found = self._query("select png from profiles where trial = ?", whole(trial, "trial", 1, 10**9))
         if not found:
             raise FileNotFoundError(f"trial {trial} of {self.folder}: has no profile")
         return decode_image(found[0][0])
@@ -302,7 +304,10 @@ class Campaign:
     def consider(self, **values):
         """Where a parameter set stands, as `talus consider` says it: a dictionary with its credible_level,
         what is expected at each experiment, and the nearest trials."""
+        known = self.parameters
         for name, value in values.items():
+            if name not in known:
+                raise ConfigError(f"{name}: is no parameter of {self.folder}; it has {', '.join(known)}")
             if not isinstance(value, (numbers.Real, str)):
                 raise ConfigError(f"{name}: must be a number or a text with a unit; it is a {type(value).__name__}")
         return program.ask("consider", self.folder, *(f"{name}={value}" for name, value in values.items()))
@@ -313,12 +318,13 @@ class Campaign:
         `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds, or
         as long as a text with a unit says, such as "2 min"."""
         import pandas
+        simulate = truth(simulate, "simulate")
         if budget is not None and not simulate:
             raise ConfigError("budget: is for simulate=True")
         if isinstance(budget, numbers.Real):
             budget = f"{budget} s"
-        table = program.ask("next", self.folder, *([] if candidates is None else [program.path(candidates)]),
-                            *(["--simulate"] if simulate else []),
+        files = [] if candidates is None else [program.path(path_text(candidates, "candidates"))]
+        table = program.ask("next", self.folder, *files, *(["--simulate"] if simulate else []),
                             *([] if budget is None else ["--budget", budget]))
         rows = [{**{key: row[key] for key in ("name", "kind", "what", "remaining", "bits", "num_simulations", "core_time_s")},
                  **{f"width_{name}": (row["width_90"] or {}).get(name) for name in self.parameters}}
@@ -329,8 +335,9 @@ class Campaign:
 
     def resume(self, add_simulations=None, progress=True):
         """Goes on, or extends a finished campaign; `progress` as of calibrate."""
+        tell = program.teller(progress)
         program.run(["resume", self.folder] +
-                    (["--add-simulations", add_simulations] if add_simulations is not None else []), progress)
+                    (["--add-simulations", add_simulations] if add_simulations is not None else []), tell)
         return self._warned(progress)
 
     def report(self):
@@ -358,14 +365,16 @@ class Campaign:
         lines = [f"<talus.Campaign \"{self.name}\", {self.state}, {count} trials, in {self.folder}"]
         lines += [f"  {name}" + (f" {value}" if value else "") + (f" (90 %: {span})" if span else "")
                   for name, value, span in self._rows()]
-        lines += ["  " + self._said(), *(f"  warning: {text}" for text in self.warnings)]
+        said = self._said()
+        lines += [*(["  " + said] if said else []), *(f"  warning: {text}" for text in self.warnings)]
         return "\n".join(lines) + ">"
 
     def _repr_html_(self):
         count = self._query("select count(*) from trials")[0][0]
+        said = self._said()
         rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows())
         return (f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.state)}, {count} trials, in "
                 f"<code>{html.escape(str(self.folder))}</code></p><table><thead><tr><th>parameter</th><th>recommended</th>"
                 f"<th>90&nbsp;%, for all together</th></tr></thead><tbody>{rows}</tbody></table>"
-                f"<p>{html.escape(self._said())}</p>" +
+                + (f"<p>{html.escape(said)}</p>" if said else "") +
                 "".join(f"<p><b>warning:</b> {html.escape(text)}</p>" for text in self.warnings))

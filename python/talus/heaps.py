@@ -25,13 +25,13 @@ def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = F
 
     Raises ConfigError where the input or the folder is not in order, Error where the simulation fails.
     """
-    _core.simulate(path_text(file), path_text(folder), truth(fresh, "fresh"))
+    _core.simulate(path_text(file, "file"), path_text(folder, "folder"), truth(fresh, "fresh"))
 
 
 def read_image(file: str | os.PathLike) -> numpy.ndarray:
     """A grey image, such as a trial's `profile.png`: bytes (rows, columns), row by row from the top. Raises ConfigError
     for a file that is no image."""
-    return _core.read_image(path_text(file))
+    return _core.read_image(path_text(file, "file"))
 
 
 def project(spheres: numpy.ndarray, frame: Mapping[str, float], num_views: int = 16) -> numpy.ndarray:

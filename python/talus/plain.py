@@ -19,13 +19,22 @@ def plain(value, name):
         return plain(value.tolist(), name)
     if isinstance(value, (list, tuple)):
         return [plain(item, f"{name}[{place}]") for place, item in enumerate(value)]
-    if isinstance(value, numbers.Integral):
-        return int(value)
     if isinstance(value, numbers.Real):
-        if not math.isfinite(value):
+        number = real(value, name)
+        if not math.isfinite(number):
             raise ConfigError(f"{name}: is {value}, must be a finite number")
-        return float(value)
+        return int(value) if isinstance(value, numbers.Integral) else number
     raise ConfigError(f"{name}: is a {type(value).__name__}, which JSON has not: {value!r}")
+
+
+def real(value, name):
+    """A number, which may be numpy's, NaN or infinite."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise ConfigError(f"{name}: must be a number; it is a {type(value).__name__}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise ConfigError(f"{name}: is beyond 1.8e308, the largest number there is") from None
 
 
 def whole(value, name, low, high):
@@ -42,11 +51,17 @@ def truth(value, name):
     return bool(value)
 
 
-def path_text(file):
-    """A path as UTF-8 has it, as results and messages do."""
+def path_text(file, name):
+    """A path as UTF-8 has it, as results and messages do; `name` is the argument's."""
+    if not isinstance(file, (str, bytes, os.PathLike)):
+        raise ConfigError(f"{name}: must be a path; it is a {type(file).__name__}")
     text = os.fsdecode(file)
+    if not text:
+        raise ConfigError(f"{name}: is empty; give a path")
+    if "\0" in text:
+        raise ConfigError(f"{name}: {text!r} has a NUL byte, which no path has; take it out")
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise ConfigError(f"{text!r}: is no name in UTF-8; rename it") from None
+        raise ConfigError(f"{name}: {text!r} is no name in UTF-8; rename it") from None
     return text

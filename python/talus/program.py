@@ -27,6 +27,17 @@ def path(name):
     return os.path.abspath(name) if os.fspath(name).startswith("-") else name
 
 
+def teller(progress):
+    """What is called with each event: `progress` itself, for True a Progress, for False and None nothing."""
+    if progress is True:
+        return Progress()
+    if progress is None or progress is False:
+        return lambda event: None
+    if not callable(progress):
+        raise ConfigError(f"progress: must be True, False or a function of an event; it is {progress!r}")
+    return progress
+
+
 def _warn(text):
     """A warning that names the user's own line, the first outside of this package."""
     frame, level = sys._getframe(), 1
@@ -106,9 +117,8 @@ class Progress:
             print(text, file=self.stream, flush=True)
 
 
-def run(arguments, progress):
-    """Runs a verb that works on a campaign; `progress` is called with each event, True: Progress()."""
-    tell = Progress() if progress is True else progress or (lambda event: None)
+def run(arguments, tell):
+    """Runs a verb that works on a campaign; `tell` is called with each event."""
     # A file holds what it says, however much: nobody reads a second pipe meanwhile.
     with tempfile.TemporaryFile("w+") as said, \
             subprocess.Popen([program(), *map(str, arguments), "--json"], stdout=subprocess.PIPE,

@@ -1,9 +1,9 @@
 """Ask and tell."""
-import numbers
+import re
 from collections.abc import Mapping
 
 from . import _core
-from .plain import plain, truth, whole
+from .plain import plain, real, truth, whole
 
 
 def _named(parameter, place):
@@ -22,6 +22,20 @@ def _named(parameter, place):
     return parameter
 
 
+def _as_written(text, parameters):
+    """The C++ part's words without places in a JSON that nobody has written, and with `min` and `max` where a parameter has
+    these."""
+    def line(words):
+        words = re.sub(r"^(parameters|options):\d+:\d+: ", lambda at: "" if at[1] == "parameters" else "options: ", words)
+        at = re.match(r"parameters\[(\d+)\]", words)
+        if not at or {"low", "high"} & set(parameters[int(at[1])]):
+            return words
+        # A text in quotes is the user's own.
+        return re.sub(r'"[^"]*"|\blow\b|\bhigh\b', lambda word: {"low": "min", "high": "max"}.get(word[0], word[0]), words)
+
+    return "\n".join(map(line, text.splitlines()))
+
+
 class Strategy:
     """Chooses the next parameter sets of expensive, noisy evaluations.
 
@@ -34,13 +48,17 @@ class Strategy:
     def __init__(self, parameters, options=None, seed=1, target=None, pixel_area=1.0):
         if isinstance(parameters, (str, bytes, Mapping)) or not hasattr(parameters, "__iter__"):
             raise _core.ConfigError("parameters: must be a list of dictionaries with name, min and max")
+        parameters = list(parameters)
         named = [_named(parameter, place) for place, parameter in enumerate(parameters)]
         seed = whole(seed, "seed", 0, 2**64 - 1)
-        if not isinstance(pixel_area, numbers.Real):
-            raise _core.ConfigError(f"pixel_area: must be a number; it is a {type(pixel_area).__name__}")
+        pixel_area = real(pixel_area, "pixel_area")
         if options is not None and not isinstance(options, Mapping):
             raise _core.ConfigError("options: must be a dictionary, such as {\"kind\": \"gp\"}")
-        self._core = _core.Strategy(named, plain(options or {}, "options"), seed, target, float(pixel_area))
+        options = plain(options or {}, "options")
+        try:
+            self._core = _core.Strategy(named, options, seed, target, pixel_area)
+        except _core.ConfigError as error:
+            raise _core.ConfigError(_as_written(str(error), parameters)) from None
         self._names = [parameter["name"] for parameter in named]
 
     def ask(self, count=1):

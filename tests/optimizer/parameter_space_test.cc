@@ -88,6 +88,21 @@ TEST(CandidateTable, SemicolonsSeparateWhereThereAreNoCommas) {
   EXPECT_EQ(ReadCandidateTable(path, {"a", "b"}), (std::vector<std::vector<double>>{{1.5, 2}}));
 }
 
+// 1e-05 came out as 1.0000000000000003e-05, which is no row of the table.
+TEST(CandidateTable, ASetComesOutAsTheTableHasIt) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "written.csv";
+  std::ofstream(path) << "a,b\n1e-05,0.1\n3e-4,0.3\n0.0007,0.7\n";
+  ParameterSpace space{
+      .parameters = {{.name = "a", .low = 1e-6, .high = 1e-3, .scale = Scale::kLog},
+                     {.name = "b", .low = 0, .high = 0.9}},
+      .candidates = path};
+  const Domain domain = space.MakeDomain();
+  std::vector<std::vector<double>> sets;
+  for (const auto& row : domain.candidates.rowwise())
+    sets.push_back(space.ToNative(row.transpose()));
+  EXPECT_EQ(sets, (std::vector<std::vector<double>>{{1e-5, 0.1}, {3e-4, 0.3}, {7e-4, 0.7}}));
+}
+
 // They were read as the neighbour's numbers, without a word.
 TEST(CandidateTable, CellsThatBelongToNoColumnAreRefusedAndQuotedOnesAreOne) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "cells.csv";

@@ -55,10 +55,15 @@ def check_campaign(root):
     raises(talus.ConfigError, "budget: is for simulate", campaign.next, budget=3)
     for budget, words in ((0, '"0 s"'), ("0 min", '"0 min"'), ("long", "long")):
         raises(talus.ConfigError, words, campaign.next, simulate=True, budget=budget)
+    raises(talus.ConfigError, "simulate: must be True or False", campaign.next, simulate="no")
+    raises(talus.ConfigError, "candidates: is empty", campaign.next, "")
     raises(talus.ConfigError, "sliding_friction", campaign.consider, sliding_friction=3.0)
     for bad, words in ((numpy.nan, "sliding_friction"), ("wide", "does not start with a number"), (None, "NoneType"),
                        ([.5], "it is a list")):
         raises(talus.ConfigError, words, campaign.consider, sliding_friction=bad)
+    for name in ("--json", "friction"):
+        raises(talus.ConfigError, f"{name}: is no parameter of {campaign.folder}; it has sliding_friction",
+               campaign.consider, **{name: 1})
     raises(talus.ConfigError, "cannot be read", campaign.next, "--help")
     raises(talus.ConfigError, "cannot be read", talus.calibrate, "--help", out=root / "help", progress=False)
     raises(talus.ConfigError, "add-simulations", campaign.resume, add_simulations="many", progress=False)
@@ -66,6 +71,8 @@ def check_campaign(root):
     assert campaign.consider(sliding_friction=0.5)["values"] == {"sliding_friction": 0.5}
     assert repr(campaign).startswith('<talus.Campaign "a <drawn> heap", finished, 4 trials')
     shown = campaign._repr_html_()
+    # It has no verdict, of which nothing is left over.
+    assert all(line.strip() for line in repr(campaign).splitlines()) and "<p></p>" not in shown, repr(campaign)
     assert "a &lt;drawn&gt; heap" in shown and "<td>sliding_friction</td>" in shown, shown
     assert campaign.resume(add_simulations=1, progress=False).trials().shape[0] >= 4
     assert campaign.report().stat().st_size > 1e5
@@ -82,6 +89,14 @@ def check_calibrate_arguments(root, spec):
     (root / "mine.json").write_text("{} // mine")
     raises(talus.ConfigError, "is there already", talus.calibrate, quick, out=root / "mine", progress=False)
     assert (root / "mine.json").read_text() == "{} // mine"
+    for bad in (3, "yes", 1):
+        raises(talus.ConfigError, "progress: must be True, False or a function", talus.calibrate, quick,
+               out=root / "untold", progress=bad)
+        raises(talus.ConfigError, "progress: must be True, False or a function", talus.Campaign(folder).resume, progress=bad)
+    assert not (root / "untold.json").exists()
+    for bad, words in (("", "out: is empty"), ("a\0b", "has a NUL byte"), (3, "must be a path; it is a int")):
+        raises(talus.ConfigError, words, talus.calibrate, quick, out=bad, progress=False)
+    raises(talus.ConfigError, "spec: is empty", talus.calibrate, "", progress=False)
     raises(talus.ConfigError, "which JSON has not", talus.calibrate, {**spec, "seed": {1}}, out=root / "set")
     raises(talus.ConfigError, "typo", talus.calibrate, {**quick, "typo": 1}, out=root / "new/one/", progress=False)
     again = talus.calibrate(quick, out=root / "new/one/", progress=False)  # the typo's file does not stand in the way
@@ -111,6 +126,8 @@ def check_profiles(campaign):
     assert talus.project(numpy.array([[0, 0, 1e-3, 2e-3]]), frame).shape == best.shape
     raises(talus.ConfigError, "is no experiment", campaign.profiles, "drum")
     raises(FileNotFoundError, "has no profile", campaign.profile, 99)
+    for bad in (2**70, 0, "1"):
+        raises(talus.ConfigError, "trial: must be a whole number", campaign.profile, bad)
 
 
 def check_film(root):

@@ -49,6 +49,8 @@ def check_ask_tell():
     raises(talus.ConfigError, "beyond 1e100", strategy.tell, {"friction": 0.5, "energy": 1e-4}, -1e160)
     for energy in (1.0, -1.0, float("nan")):
         raises(talus.ConfigError, "outside the searched range", strategy.tell, {"friction": 0.5, "energy": energy}, 1.0)
+    raises(talus.ConfigError, "friction: 0.9000001 is outside the searched range, 0.1 to 0.9", strategy.tell,
+           {"friction": 0.9000001, "energy": 1e-4}, 1.0)
     raises(ValueError, "frictoin", talus.Strategy, [{"name": "a", "low": 0, "high": 1}],
            {"frictoin": 1})
     check_refusals()
@@ -62,10 +64,16 @@ def check_refusals():
     raises(talus.ConfigError, "parameters[1]: must be a dictionary", talus.Strategy, [*one, "b"])
     for low, high in ((-1e308, 1e308), (0, 1e-320), (1, 1 + 1e-15)):
         raises(talus.ConfigError, "high: is", talus.Strategy, [{"name": "a", "low": low, "high": high}])
+    for given, words in (({"min": 1, "max": 0}, "parameters[0].max: is 0, must be above min"),
+                         ({"min": "low", "max": 1}, 'parameters[0].min: "low" does not start'),
+                         ({"min": 1, "high": 0}, "parameters[0].high: is 0, must be above low"),
+                         ({"min": 0, "max": 10**400}, "parameters[0].max: is beyond 1.8e308")):
+        raises(talus.ConfigError, words, talus.Strategy, [{"name": "a", **given}])
+    raises(talus.ConfigError, "options: typo: is not known", talus.Strategy, one, {"typo": 1})
     for seed in (-1, 2**64, 1.5, True):
         raises(talus.ConfigError, "seed", talus.Strategy, one, seed=seed)
     image = numpy.full((8, 9), 255, numpy.uint8)
-    for bad in (numpy.nan, -1, 0, numpy.inf):
+    for bad in (numpy.nan, -1, 0, numpy.inf, True, 10**400):
         raises(talus.ConfigError, "pixel_area", talus.Strategy, one, target=image, pixel_area=bad)
     for bad, words in ((image[0], "two dimensions"), (image[:0], "is empty"), (image / 255, "of float64"),
                        (image == 0, "of bool"), (image.astype(int), "of int64"), ("image", "must be bytes")):
@@ -87,12 +95,19 @@ def check_refusals():
     for call in (lambda: talus.read_image(foreign), lambda: talus.simulate(foreign, "x"),
                  lambda: talus.simulate("x", foreign)):
         raises(talus.ConfigError, "is no name in UTF-8", call)
+    for bad, words in (("", "is empty"), ("a\0b", r"'a\x00b' has a NUL byte"), (3, "must be a path; it is a int")):
+        raises(talus.ConfigError, f"file: {words}", talus.read_image, bad)
+        raises(talus.ConfigError, f"file: {words}", talus.simulate, bad, "x")
+        raises(talus.ConfigError, f"folder: {words}", talus.simulate, "x", bad)
+        raises(talus.ConfigError, f"folder: {words}", talus.Campaign, bad)
     raises(talus.ConfigError, "fresh: must be True or False", talus.simulate, "x", "y", "no")
     raises(talus.ConfigError, "no target", strategy.tell, {"a": .5}, 1.0, image=image)
     raises(talus.ConfigError, "values: must be a dictionary", strategy.tell, [.5], 1.0)
     raises(talus.ConfigError, "a: must be a number; it is a str", strategy.tell, {"a": "x"}, 1.0)
     raises(talus.ConfigError, "value: must be a number; it is a list", strategy.tell, {"a": .5}, [1])
-    raises(talus.ConfigError, "no parameters'", strategy.tell, {"a": .5, "b": 1}, 1.0)
+    raises(talus.ConfigError, "value: must be a number; it is a bool", strategy.tell, {"a": .5}, True)
+    raises(talus.ConfigError, "value: is beyond 1.8e308", strategy.tell, {"a": .5}, 10**400)
+    raises(talus.ConfigError, "no parameters'; there are a", strategy.tell, {"a": .5, "b": 1}, 1.0)
     raises(AttributeError, "_core", talus.Strategy.__new__(talus.Strategy).ask)
 
 

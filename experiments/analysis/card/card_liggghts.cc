@@ -1,6 +1,7 @@
 // LIGGGHTS-PUBLIC 3.8: hertz, history, epsd and epsd2 are (N1)–(N4), (T1)–(T3), (R1)–(R4) with
 // f = 0 and (R6), so that nothing is converted. Pair values are given as a matrix, as the pairs
 // state them or mixed here by (P5).
+#include <algorithm>
 #include <sstream>
 
 #include "base/prime.h"
@@ -44,8 +45,27 @@ std::string RollingModel(engine::Rolling rolling) {
   return "";
 }
 
-std::string LiggghtsRemarks(const Card& card) {
+// LIGGGHTS refuses moduli outside 5e6 to 1e9 Pa unless it is told so, and hardly any restitution.
+std::string LiggghtsLimits(const Card& card) {
+  const auto [softest, hardest] = std::ranges::minmax(
+      card.materials, {}, [](const auto& m) { return m.material.youngs_modulus; });
   std::string text;
+  if (softest.material.youngs_modulus < 5e6) text += "soft_particles yes  # before read_data\n";
+  if (hardest.material.youngs_modulus > 1e9) text += "hard_particles yes  # before read_data\n";
+  double least = 1;
+  for (std::size_t a = 0; a < card.materials.size(); ++a) {
+    for (std::size_t b = 0; b < card.materials.size(); ++b) {
+      least = std::min(least, engine::HarmonicMean(ActingOn(card, a, b).restitution,
+                                                   ActingOn(card, b, a).restitution));
+    }
+  }
+  if (least > 0.05) return text;
+  return text + "# NOT INCLUDED: a restitution of " + CardNumber(least) +
+         "; LIGGGHTS refuses 0.05 and less.\n";
+}
+
+std::string LiggghtsRemarks(const Card& card) {
+  std::string text = LiggghtsLimits(card);
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text +=
         "# NOT INCLUDED: the adhesion. LIGGGHTS-PUBLIC has SJKR only, whose force is another one: "

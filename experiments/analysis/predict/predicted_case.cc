@@ -56,9 +56,17 @@ void RefuseFixedWalls(const JointView& view, const base::JsonFile& file, const r
   problems.ThrowIfAny();
 }
 
-std::string SizesText(const engine::SizeDistribution& sizes) {
-  const engine::SizeCurve curve(sizes);
-  return "D50 " + base::ShortNumber(1e3 * curve.VolumeQuantile(0.5)) + " mm";
+// What tells two distributions apart: "D50 0.4 mm instead of D50 1 mm".
+std::string OtherSizes(const engine::SizeDistribution& taken, const engine::SizeDistribution& own) {
+  for (const int percent : {50, 10, 90}) {
+    const auto text = [&](const engine::SizeDistribution& sizes) {
+      return "D" + std::to_string(percent) + " " +
+             base::ShortNumber(1e3 * engine::SizeCurve(sizes).VolumeQuantile(percent / 100.0)) +
+             " mm";
+    };
+    if (text(taken) != text(own)) return text(taken) + " instead of " + text(own);
+  }
+  return "its size distribution";
 }
 
 // What the file states of its material and the campaign's powder has otherwise, but for what was
@@ -88,7 +96,7 @@ void NotePowder(const JointView& view, const base::JsonFile& file, const rigs::P
     differs += (differs.empty() ? "" : ", ") + text;
   };
   if (base::ToJson(own.sizes) != base::ToJson(powder.sizes)) {
-    note(SizesText(powder.sizes) + " instead of " + SizesText(own.sizes));
+    note(OtherSizes(powder.sizes, own.sizes));
   }
   for (const std::string& text : OtherProperties(view, file, own.material)) note(text);
   if (differs.empty()) return;

@@ -1,6 +1,7 @@
 #include "experiments/campaign/record/trial_end.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text/joined.h"
@@ -24,7 +25,13 @@ std::string FailureText(const runners::FinishedJob& job, const std::filesystem::
 
 void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
                 journal::TrialRecord& trial) {
-  trial.metrics = reference.Measure(output.profile);
+  std::vector<journal::MetricRecord> metrics = reference.Measure(output.profile);
+  for (const journal::MetricRecord& number : output.scalars) {
+    if (std::ranges::count(metrics, number.name, &journal::MetricRecord::name) == 0) continue;
+    throw base::Error("leaves a number \"" + number.name +
+                      "\", which is what its image is measured by: give it another name");
+  }
+  trial.metrics = std::move(metrics);
   trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
   trial.status = journal::TrialStatus::kOk;
   trial.reason = output.note;

@@ -24,7 +24,7 @@ void AddTimes(const runners::FinishedJob& job, journal::TrialRecord& trial);
 std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder);
 
 // Writes down what a trial that has ended well has left. Throws base::Error where its profile
-// cannot be measured; the trial is as it was then.
+// cannot be measured or a number has the name of an image's metric; the trial is as it was then.
 void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
                 journal::TrialRecord& trial);
 

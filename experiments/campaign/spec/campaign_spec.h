@@ -88,7 +88,9 @@ struct CampaignSpec {
     visit("parameters", self.parameters,
           {.doc = "what is searched; default: sliding and rolling friction, surface energy"});
     visit("constraints", self.constraints, {.doc = "linear inequalities between parameters"});
-    visit("objective", self.objective, {.doc = "what is minimised"});
+    visit(
+        "objective", self.objective,
+        {.doc = "what trials are compared and listed by; strategies other than auto minimise it"});
     visit("strategy", self.strategy, {.doc = "how the next trial is chosen"});
     visit("budget", self.budget, {.doc = "when the search ends at the latest"});
     visit("goal", self.goal,

@@ -5,6 +5,7 @@
 
 #include "engine/scene.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/time_step.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 
@@ -87,7 +88,7 @@ PowderSize EstimatePowder(const Case& c) {
   size.num_grains = std::llround(std::min(size.grains, 1e18));
   size.mean_diameter = f * curve.VolumeQuantile(0.5);
   size.time_step =
-      c.rayleigh_fraction * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);
+      StepFraction(c) * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);
   return size;
 }
 

@@ -91,8 +91,8 @@ struct CaseOutputs {
   void Validate(base::Problems& problems) const;
 };
 
-// Largest Δt / t_R at which heaps were seen to be the same as at 0.15 (docs/validation.md) [-].
 inline constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
+// Largest Δt / t_R at which heaps were seen to be the same as at 0.15 (docs/validation.md) [-].
 inline constexpr double kUsualRayleighFraction = 0.30;
 
 // The whole of a case.json. Running it gives the same grains anywhere with one build.
@@ -135,8 +135,11 @@ struct Case {
     visit("outputs", self.outputs);
     visit("gravity", self.gravity,
           {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});
-    visit("rayleigh_fraction", self.rayleigh_fraction,
-          {.doc = "time step over Rayleigh time of the smallest grain, in (0, 0.4]"});
+    visit(
+        "rayleigh_fraction", self.rayleigh_fraction,
+        {.doc =
+             "time step over Rayleigh time of the smallest grain, in (0, 0.4]; less is taken where "
+             "rolling damping needs it (docs/physics.md, M6)"});
     visit("seed", self.seed);
     visit("frame", self.frame, {.doc = "of profile.png; without it none is written"});
     visit("num_views", self.num_views, {.doc = "silhouettes of the profile over 180 deg, > 0"});

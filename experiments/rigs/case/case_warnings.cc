@@ -9,6 +9,7 @@
 #include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/time_step.h"
 
 namespace talus::rigs {
 namespace {
@@ -61,6 +62,18 @@ std::string OpeningWarning(const Case& c, const Opening& opening) {
          base::ShortNumber(100 * rate, 2) +
          " % of the rate of true ones, and may arch where those flow: take a smaller scale factor, "
          "or several";
+}
+
+// A step that the rolling dashpot shortens much costs as many more.
+std::string ShortStepWarning(const Case& c) {
+  constexpr double kWorthSaying = 0.8;
+  const double fraction = StepFraction(c);
+  if (fraction >= kWorthSaying * c.rayleigh_fraction) return {};
+  return "the time step is " + base::ShortNumber(fraction, 2) + " Rayleigh times in place of " +
+         base::ShortNumber(c.rayleigh_fraction) +
+         ": the rolling dashpot would keep grains spinning at a longer one (docs/physics.md, M6); "
+         "a "
+         "smaller rolling_damping takes fewer steps";
 }
 
 // Grains that are nearly as large as the gap are carried along by the spreader or stop it.
@@ -122,6 +135,7 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
   if (c.rayleigh_fraction > kUsualRayleighFraction) {
     warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
+  warn(ShortStepWarning(c));
   std::vector<engine::Material> surfaces = MaterialsOf(c);
   for (const engine::MaterialPair& pair : PairsOf(c)) {
     surfaces.push_back(engine::With(surfaces.front(), pair.stated));

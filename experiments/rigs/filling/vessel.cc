@@ -9,6 +9,7 @@
 #include "engine/overlap_check.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/time_step.h"
 #include "experiments/rigs/filling/pouring.h"
 
 namespace talus::rigs {
@@ -72,7 +73,7 @@ FilledScene FillVessel(const Case& c, const Vessel& vessel) {
     // The step must suit the grains that are to come.
     const double smallest = engine::SizeCurve(c.powder.sizes).smallest() / 2;
     const double radius = c.coarse_graining.scale_factor * smallest;
-    scene.time_step = c.rayleigh_fraction * engine::RayleighTime(c.powder.material, radius);
+    scene.time_step = StepFraction(c) * engine::RayleighTime(c.powder.material, radius);
   }
   if (vessel.bed) {
     Case bed = c;
@@ -83,7 +84,7 @@ FilledScene FillVessel(const Case& c, const Vessel& vessel) {
   scene.pairs = PairsOf(c);
   scene.models = c.models;
   scene.gravity = {0, 0, -c.gravity};
-  scene.rayleigh_fraction = c.rayleigh_fraction;
+  scene.rayleigh_fraction = StepFraction(c);
   scene.num_threads = c.threads;
   return made;
 }

@@ -1,13 +1,4 @@
-// How far a stress presses grains into each other, and how stiff their bed then is.
-//
-// Under a stress σ a bed of solid fraction φ whose grains have Z contacts carries in each, on
-// average [rumpf1958],
-//
-//   F = π d² σ/(φ Z)        with Hertz, F = (4/3) E* √(R/2) δ^(3/2):
-//   δ/R = (3 √2 π σ/(φ Z E*))^(2/3)
-//
-// φ = 0.58 and Z = 4.5, as frictional grains have them that are sheared. The chains of contacts
-// that carry most overlap three to four times as far.
+// How far the stress of a lid presses grains into each other, and how stiff their bed then is.
 #pragma once
 
 #include "experiments/rigs/case/case.h"
@@ -18,7 +9,7 @@ namespace talus::rigs {
 // grains lost two fifths of their friction, at 0.028 hardly any (docs/rigs.md).
 inline constexpr double kMaxSqueeze = 0.04;
 
-// Mean overlap over radius [-] under a stress [Pa].
+// Mean overlap over radius [-] under a stress [Pa] (engine/laws/pressed_bed.h).
 double SqueezeShare(const Case& rig_case, double stress);
 
 // Under which the share is kMaxSqueeze [Pa].

@@ -112,12 +112,28 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
   return measured;
 }
 
+// The file that was measured here before, if any: a copied folder has other times of its files.
+std::optional<fs::path> FormerlyMeasured(const CommandOptions& options, const fs::path& folder) {
+  if (!fs::exists(folder / kResultName)) return std::nullopt;
+  const auto result = nlohmann::json::parse(base::ReadFile(folder / kResultName), nullptr, false);
+  if (!result.is_object() || !result.contains("measured")) return std::nullopt;
+  for (const auto& [name, checksum] : result["measured"].items()) {
+    if (IsResultName(options, name) && fs::exists(folder / name)) return folder / name;
+  }
+  return std::nullopt;
+}
+
+fs::path ResultOf(const CommandOptions& options, const fs::path& folder) {
+  const auto former = FormerlyMeasured(options, folder);
+  return former ? *former : FindResult(options, folder, kCommandFile);
+}
+
 // Without a frame numbers are enough, and most likely what was meant.
 fs::path FindMeasurable(const CommandOptions& options, const rigs::Case& rig_case,
                         const fs::path& folder) {
-  if (rig_case.frame) return FindResult(options, folder, kCommandFile);
+  if (rig_case.frame) return ResultOf(options, folder);
   try {
-    return FindResult(options, folder, kCommandFile);
+    return ResultOf(options, folder);
   } catch (const base::Error& error) {
     throw base::Error(
         std::string("left neither scalars.json nor scalars.csv with its numbers, and ") +
@@ -351,7 +367,7 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
     return difference;
   }
   const bool same_frame = made.heap.frame == rig_case.frame;
-  if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") {
+  if (!same_frame && ResultOf(options_, from).extension() == ".png") {
     return "its engine has left images in another frame, which cannot be drawn anew";
   }
   return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "experiments/campaign/record/reference.h"
+#include "experiments/campaign/record/trial_end.h"
 #include "imaging/heap/film_strip.h"
 
 namespace talus::campaign {
@@ -59,6 +60,19 @@ TEST(FilmReference, AFieldIsTheFieldsOfThePicturesSideBySide) {
                 fields[x / single.width][y * single.width + x % single.width]);
     }
   }
+}
+
+// A deck's number took the place of the image's own in the journal, and not in memory.
+TEST(TrialEnd, ANumberNamedAsAnImagesMetricIsRefused) {
+  const Reference reference(imaging::Profile{Step(30), FrameOfOne()}, {});
+  journal::TrialRecord trial;
+  trials::TrialOutput output{.profile = Step(20), .scalars = {{.name = "mass_on_plate_kg"}}};
+  TakeOutput(output, reference, trial);
+  const auto metrics = trial.metrics.size();
+  output.scalars.push_back({.name = "sad_mm2", .value = 0.001});
+  EXPECT_THAT([&] { TakeOutput(output, reference, trial); },
+              ::testing::ThrowsMessage<base::Error>(HasSubstr("\"sad_mm2\"")));
+  EXPECT_EQ(trial.metrics.size(), metrics);
 }
 
 // Heaps that lie within the margins round the experiment's powder lose nothing.

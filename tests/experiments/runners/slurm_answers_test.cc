@@ -161,7 +161,8 @@ TEST(SlurmQueue, TimesAreReadAsSlurmWritesThem) {
 }
 
 TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {
-  for (const char* name : {"PENDING", "RUNNING", "COMPLETING", "REQUEUED", "SUSPENDED"}) {
+  for (const char* name : {"PENDING", "RUNNING", "COMPLETING", "REQUEUED", "SUSPENDED",
+                           "RESV_DEL_HOLD", "SPECIAL_EXIT"}) {
     EXPECT_TRUE(IsUnfinished({name, ""})) << name;
   }
   for (const char* name : {"COMPLETED", "FAILED", "TIMEOUT", "NODE_FAIL", "BOOT_FAIL", "REVOKED"}) {

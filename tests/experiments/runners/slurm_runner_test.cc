@@ -212,6 +212,19 @@ TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
   EXPECT_FALSE(fs::exists(root_ / "trials/1/ran"));
 }
 
+// Its end was written where the set-up had gone, and the trial counted as one that had failed.
+TEST_F(SlurmRunnerTest, ASetUpThatFailsElsewhereIsNoFailureOfTheTrial) {
+  fs::create_directories(root_ / "elsewhere");
+  options_.setup = {"cd " + (root_ / "elsewhere").string(), "false || exit 7"};
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "touch ran"), Shell(2, "touch ran")};
+  runner.Submit(jobs);
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  for (const FinishedJob& job : finished) EXPECT_EQ(job.end, JobEnd::kNotStarted);
+  EXPECT_TRUE(fs::is_empty(root_ / "elsewhere"));
+}
+
 // What the failed set-up has left in the trial's folder was taken for the end of every later try.
 TEST_F(SlurmRunnerTest, AfterASetUpThatFailedTheJobIsSubmittedAnew) {
   const Job jobs[] = {Shell(1, "touch ran")};
@@ -245,6 +258,25 @@ TEST_F(SlurmRunnerTest, AForgottenJobIsSubmittedAnewByALaterProcess) {
   EXPECT_TRUE(runner.Adopt(jobs[1], "101_1"));
   runner.Submit({&jobs[0], 1});
   EXPECT_TRUE(SlurmRunner(options_, root_ / "campaign").Adopt(jobs[0], ""));
+}
+
+// Slurm has forgotten the array, one of whose tasks a signal has ended. It was taken for one that
+// had never been sent, and all of its array ran again.
+TEST_F(SlurmRunnerTest, AKilledJobThatALaterProcessFindsIsNotSubmittedAgain) {
+  Put("hold", "");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  SlurmRunner(options_, root_ / "campaign").Submit(jobs);
+  Put("trials/1/.slurm_end", "1 0 0 1500000 250 0 node7 end\n");
+  Put("trials/2/.slurm_end", "1 1 139 1500000 250 0 node7 end\n");
+  Put("queue", "");
+  options_.result_delay = 0.1;
+  SlurmRunner runner(options_, root_ / "campaign");
+  for (const Job& job : jobs) EXPECT_TRUE(runner.Adopt(job, ""));
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_TRUE(finished[0].ok());
+  EXPECT_EQ(finished[1].end, JobEnd::kSignal);
+  EXPECT_EQ(Text("submitted").find('\n') + 1, Text("submitted").size());  // one line: one batch
 }
 
 // It waited in the queue while the set-up was mended: the script that it was submitted with is old.

@@ -4,11 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <set>
 #include <string>
 
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/trials/engines/command_case.h"
 #include "tests/experiments/command_fixture.h"
 
 namespace talus::trials {
@@ -57,6 +61,17 @@ TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
   const TemplateTable& grains = values.tables.at("grains");
   EXPECT_EQ(std::to_string(grains.rows.size()), values.scalars.at("num_grains"));
   EXPECT_EQ(std::stod(grains.rows.at(0).at(4)), 2e-3);
+}
+
+// That of a case of talus, which another engine may simulate. After a change, run with
+// TALUS_UPDATE_SCHEMAS=1 and commit what it writes.
+TEST(CommandCase, TheShippedSchemaOfACaseIsTheParsers) {
+  const std::string path = TALUS_SOURCE_DIR "/docs/case.schema.json";
+  auto schema = base::FileSchema<CommandCase>("talus heap case");
+  schema["required"] = base::FileSchema<rigs::Case>("")["required"];
+  const std::string text = schema.dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, text);
+  EXPECT_TRUE(base::ReadFile(path) == text) << path << ": TALUS_UPDATE_SCHEMAS=1 makes it anew";
 }
 
 }  // namespace case_values_test

@@ -269,6 +269,18 @@ TEST_F(CommandEngineTest, ATrialWhoseFilesHaveChangedSinceTheyWereMeasuredIsRunA
   }
 }
 
+// A copied folder's files have the times of the copy, in any order.
+TEST_F(CommandEngineTest, WhatWasMeasuredStaysTheResultWhateverTheTimesOfACopy) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  CommandEngine engine(options_);
+  const fs::path folder = root_ / "trial";
+  Run();
+  const TrialOutput before = engine.Collect(SmallCase(), folder);
+  fs::last_write_time(folder / ".command.json",
+                      fs::last_write_time(folder / "heap.csv") + std::chrono::seconds(5));
+  EXPECT_EQ(engine.Collect(SmallCase(), folder).profile.pixels, before.profile.pixels);
+}
+
 TEST_F(CommandEngineTest, TemplatesArePlainFiles) {
   Deck("run.sh", "true\n");
   for (const char* name : {"pipe", "dangling", "folder"}) {

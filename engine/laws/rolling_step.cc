@@ -1,0 +1,31 @@
+#include "engine/laws/rolling_step.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/laws/pressed_bed.h"
+
+namespace talus::engine {
+
+double DampedShare(const PairConstants& pair, const BedGrains& grains, double dt) {
+  const double r = grains.radius;
+  const double mass = 4.0 / 3.0 * std::numbers::pi * grains.density * r * r * r;
+  const double i_star = 0.7 * mass * r * r;
+  const double stress = grains.stress + AdhesiveStress(pair, r);
+  const double s = r * std::sqrt(PressedOverlap(pair, stress) / 2);             // √(R* δ)
+  const double damping = pair.rolling_damping * r / 2 * std::sqrt(s * i_star);  // R3
+  return damping * dt / (0.2 * mass * r * r);
+}
+
+double LongestRollingStep(const PairConstants& pair, const BedGrains& grains) {
+  const double of_a_second = DampedShare(pair, grains, 1);
+  return of_a_second > 0 ? kMostDampedShare / of_a_second : std::numeric_limits<double>::infinity();
+}
+
+double BedStress(double density, double gravity, double solid_volume) {
+  constexpr double kSolidFraction = 0.6;
+  return kSolidFraction * density * gravity * std::cbrt(solid_volume / kSolidFraction);
+}
+
+}  // namespace talus::engine
