@@ -14,8 +14,7 @@
 
 namespace talus::engine {
 
-// Above 0.48 no bed came to rest, between 0.42 and 0.48 some did, below all did
-// (docs/validation.md, Time step).
+// Beds came to rest up to 0.43 and never above 0.48 (docs/validation.md, Time step).
 inline constexpr double kMostDampedShare = 0.36;
 
 // Like grains in a bed.

@@ -66,10 +66,15 @@ TEST(FilmReference, AFieldIsTheFieldsOfThePicturesSideBySide) {
 TEST(TrialEnd, ANumberNamedAsAnImagesMetricIsRefused) {
   const Reference reference(imaging::Profile{Step(30), FrameOfOne()}, {});
   journal::TrialRecord trial;
-  trials::TrialOutput output{.profile = Step(20), .scalars = {{.name = "mass_on_plate_kg"}}};
+  trials::TrialOutput output;
+  output.profile = Step(20);
+  journal::MetricRecord number;
+  number.name = "mass_on_plate_kg";
+  output.scalars = {number};
   TakeOutput(output, reference, trial);
   const auto metrics = trial.metrics.size();
-  output.scalars.push_back({.name = "sad_mm2", .value = 0.001});
+  number.name = "sad_mm2";
+  output.scalars.push_back(number);
   EXPECT_THAT([&] { TakeOutput(output, reference, trial); },
               ::testing::ThrowsMessage<base::Error>(HasSubstr("\"sad_mm2\"")));
   EXPECT_EQ(trial.metrics.size(), metrics);
