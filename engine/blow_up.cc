@@ -46,19 +46,10 @@ double ReferenceSpeed(SimulationState& state) {
   return speed + fall + std::sqrt(2 * energy * largest_inverse_mass);
 }
 
-// Beyond it a sphere could pass another, or a wall, between two steps [m/s].
-double SpeedUnseen(const SimulationState& state) {
-  double smallest = INFINITY;
-  for (std::int64_t i = 0; i < state.particles.num; ++i) {
-    smallest = std::min(smallest, state.particles.Radius(i));
-  }
-  return smallest / state.dt;
-}
-
 double SpeedLimit(const SimulationState& state) {
   // A list lasts some thousand steps; what is gained by falling meanwhile is in the margin.
   const double fall = base::Norm(state.gravity) * (state.time() + 1e5 * state.dt);
-  return std::min(10 * state.reference_speed + 2 * fall, SpeedUnseen(state));
+  return 10 * state.reference_speed + 2 * fall;
 }
 
 std::string StepText(const SimulationState& state) {
@@ -75,11 +66,8 @@ void ThrowBlowUp(const SimulationState& state) {
     std::ostringstream text;
     text << StepText(state) << "sphere " << p.ids[i];
     if (std::isfinite(speed)) {
-      text << " has a speed of " << speed << " m/s, beyond the " << state.speed_limit << " m/s "
-           << (state.speed_limit < SpeedUnseen(state)
-                   ? "that gravity, cohesion and walls can give"
-                   : "at which it moves by the smallest radius in a step")
-           << "; make the time step smaller";
+      text << " has a speed of " << speed << " m/s, beyond the " << state.speed_limit
+           << " m/s that gravity, cohesion and walls can give; make the time step smaller";
     } else {
       text << " has a velocity that is not a number";
     }

@@ -80,19 +80,5 @@ TEST(RollingStep, ABedComesToRestWhereTheStepIsNotWarnedOf) {
   }
 }
 
-// A fall so long, onto grains so soft, that the wall was never felt: the run was in order, and the
-// sphere below the floor.
-TEST(BlowUp, ASphereThatCouldPassAWallUnseenEndsTheRun) {
-  const fs::path file = fs::path(::testing::TempDir()) / "unseen.json";
-  std::ofstream(file) << R"({
-    "materials": [{"name": "a", "youngs_modulus": 1e5, "restitution": 0.5}],
-    "spheres": [{"diameter": 1e-3, "position": [0, 0, 5]}],
-    "walls": [{"shape": "disc", "diameter": 0.05}], "stop": {"time": 1.04}})";
-  const LoadedScene loaded = LoadScene(file);
-  const auto run_to_its_end = [&] { WhyEnded(loaded, "unseen"); };
-  EXPECT_THAT(run_to_its_end, ::testing::ThrowsMessage<base::Error>(
-                                  HasSubstr("moves by the smallest radius in a step")));
-}
-
 }  // namespace rolling_step_test
 }  // namespace talus::engine
