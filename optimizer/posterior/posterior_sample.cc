@@ -53,7 +53,9 @@ void PosteriorSample::SetRegion() {
 }
 
 double PosteriorSample::CredibleLevel(double at) const {
-  return std::min(1.0, (log_density.array() > at).select(weight, 0).sum());
+  const auto denser = log_density.array() > at;
+  if (denser.all()) return 1;  // which the weights sum up to but for rounding
+  return std::min(1.0, denser.select(weight, 0).sum());
 }
 
 double PosteriorSample::RegionVolume() const {

@@ -95,8 +95,8 @@ std::string GoalText(const NextGoal& goal) {
       ", which the parameters leave open to " + GoalWidthText(goal, goal.half_width) +
       " (90 %), by " + base::Counted(goal.num_draws, "draw") + " in " +
       base::Counted(goal.num_runs, "run") + "; a surrogate over them, for scale factor " +
-      ShortNumber(goal.scale_factor) + ", misses a draw left out by " +
-      rigs::ShownNumber(goal.number, goal.left_out_error, 2) + "\n";
+      ShortNumber(goal.scale_factor) + ", is off by " +
+      rigs::ShownNumber(goal.number, goal.left_out_error, 2) + " at a draw left out\n";
   if (!(goal.half_width > goal.left_out_error)) {
     text +=
         "  note: that is no more than the surrogate's error: any set that fits will do for this "

@@ -76,8 +76,8 @@ std::string LeftOutText(const Prediction& prediction, const PredictedNumber& num
   if (!number.surrogate) return "";
   const TitleAndUnit shown(number);
   const PredictedSurrogate& s = *number.surrogate;
-  const std::string errors = " misses a draw left out by " + shown.Text(s.left_out_error, 2) +
-                             shown.Unit() + ", the other draws' mean by " +
+  const std::string errors = " is off by " + shown.Text(s.left_out_error, 2) + shown.Unit() +
+                             " at a draw left out; the mean of the other draws by " +
                              shown.Text(s.draws_error, 2) + shown.Unit();
   if (s.is_used) {
     return "    at scale factor " + ShortNumber(s.scale_factor) + " by a surrogate, which" +

@@ -62,7 +62,7 @@ TrialProgress ProgressOf(const journal::TrialRecord& trial, const journal::Campa
       .scale_factor = trial.scale_factor,
       .experiment = campaign.experiments[static_cast<std::size_t>(trial.experiment)].name,
       .objective = reference.Value(trial),
-      .unit = std::string(journal::InfoOf(objective).unit),
+      .unit = reference.has_image() ? std::string(journal::InfoOf(objective).unit) : "",
       .reason = trial.reason,
       .duration = trial.duration_s};
   for (const journal::ParameterRecord& parameter : campaign.parameters) {

@@ -46,11 +46,23 @@ double FallHeight(const Case& c, const Vessel& vessel, const engine::Pour& pour)
   return DropHeight(c, vessel) + pour.slab() + vessel.region.base.z - vessel.Floor();
 }
 
-double MouthDiameter(const Case& c, const Vessel& vessel) {
+// Of a mouth out of which grains up to this diameter are poured.
+double MouthFor(double largest, const Case& c, const Vessel& vessel) {
   if (vessel.funnel) return vessel.funnel->outlet;
   // Not so narrow that grains come down in a file.
-  const double least = std::min(4 * LargestDiameter(c), 0.9 * vessel.across);
+  const double least = std::min(4 * largest, 0.9 * vessel.across);
   return c.filling.mouth_diameter.value_or(std::max(kMouth * vessel.across, least));
+}
+
+// What true grains run out with: coarse ones may need a wider mouth, and no other rate.
+double UsualRate(engine::PourPlan plan, const Case& c, const Vessel& vessel) {
+  const double f = c.coarse_graining.scale_factor;
+  plan.mouth_diameter = MouthFor(LargestDiameter(c) / f, c, vessel);
+  return engine::BeverlooRate(plan, f);
+}
+
+double MouthDiameter(const Case& c, const Vessel& vessel) {
+  return MouthFor(LargestDiameter(c), c, vessel);
 }
 
 engine::Pour MakePour(const Case& c, const Vessel& vessel) {
@@ -70,7 +82,7 @@ engine::Pour MakePour(const Case& c, const Vessel& vessel) {
       .seed = c.seed,
       .first_id = 0};
   if (vessel.funnel && vessel.funnel->follows) plan.clearance = vessel.funnel->height;
-  plan.rate = c.filling.rate.value_or(engine::BeverlooRate(plan, c.coarse_graining.scale_factor));
+  plan.rate = c.filling.rate ? *c.filling.rate : UsualRate(plan, c, vessel);
   return engine::Pour(std::move(plan));
 }
 

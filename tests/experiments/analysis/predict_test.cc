@@ -132,7 +132,7 @@ TEST_F(PredictTest, SeveralScaleFactorsTellTheOneThatTheAnswerIsFor) {
   EXPECT_LT(density.low, truth + 4 / std::sqrt(3 * 12));
   const std::string text = PredictionText(p, view_->record.parameters);
   EXPECT_THAT(text, HasSubstr("scale factors 2 and 1.5: 48 of 48 runs"));
-  EXPECT_THAT(text, HasSubstr("at scale factor 1 by a surrogate, which misses a draw left out by"));
+  EXPECT_THAT(text, HasSubstr("at scale factor 1 by a surrogate, which is off by"));
   EXPECT_TRUE(fs::exists(folder_ / "predict/taps/trials/0012_1_at_2/profile.png"));
   // The same again, with what there is.
   const fs::path first = folder_ / "predict/taps/trials/0001_1_at_2/profile.png";
