@@ -11,7 +11,6 @@
 #include "base/json/json_file.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
-#include "base/text/printable.h"
 #include "base/text/shell_text.h"
 #include "experiments/app/bench_questions.h"
 #include "experiments/app/commands.h"
@@ -47,9 +46,7 @@ void Say(const imaging::PhotoSet& set, const std::string& unread) {
   std::cout << imaging::ReadingText(set) << " (name another with --pattern)\n";
   if (!unread.empty()) std::cout << "note: " << unread << '\n';
   if (set.missing.empty()) return;
-  const auto more = set.missing.size() - 1;
-  std::cout << "note: " << base::Printable(set.missing.front())
-            << (more > 0 ? ", and " + std::to_string(more) + " more are missing" : "")
+  std::cout << "note: " << imaging::MissingText(set)
             << ": the spec goes on without (allow_missing_views)\n";
 }
 
@@ -63,7 +60,7 @@ void AddRuns(const InitArguments& arguments, campaign::SpecAnswers& answers) {
   problems.ThrowIfAny();
   const std::vector<std::filesystem::path> files(arguments.photos.begin(), arguments.photos.end());
   const imaging::PhotoSet set = imaging::SortPhotos(files, answers.pattern);
-  answers.missing = set.missing;
+  answers.missing = imaging::MissingText(set);
   std::size_t matched = 0;
   for (const imaging::PhotoFiles& run : set.runs) {
     imaging::PhotoRun named{.name = run.run, .photos = {}};
@@ -89,7 +86,7 @@ void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answ
   }
   const imaging::PhotoSet set = imaging::FindPhotos(first, answers.pattern);
   answers.pattern = set.pattern;
-  answers.missing = set.missing;
+  answers.missing = imaging::MissingText(set);
   std::cout << first << ": ";
   Say(set, imaging::UnreadText(first, set));
   answers.folder = SeenFrom(arguments.out, first);

@@ -14,7 +14,7 @@
 namespace talus::campaign {
 namespace {
 
-// Its photographs are named for good, wherever the campaign is asked from later.
+// Makes its photographs' paths absolute, so that the campaign finds them from any folder.
 ExperimentSpec ReadExperiment(const std::filesystem::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   base::Problems problems(path.string(), file.places);
@@ -37,7 +37,7 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   return with;
 }
 
-// By the keys of the test's own file.
+// Reports problems under the keys of the test's own file.
 void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
            const std::filesystem::path& file) {
   CampaignSpec spec = SpecWith(before, experiment);

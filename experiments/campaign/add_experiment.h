@@ -13,7 +13,7 @@ namespace talus::campaign {
 
 struct AddOptions {
   std::optional<double> core_time{};  // for the search with it [s], > 0; default: what it has used
-  // That the campaign simulates with, so that tests can put another in its place.
+  // The engine that the campaign simulates with; tests put another in its place.
   std::function<std::unique_ptr<trials::TrialEngine>()> engine{};
 };
 

@@ -28,8 +28,8 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const AddedParameter& added);
 // it is now read.
 void KeepAddedParameters(const CampaignSpec& going, CampaignSpec& read);
 
-// The trials of a campaign with `spec` gain the coordinates that SpecWith has given it; a result is
-// none any more. `spec_text`: as the user wrote it.
+// The trials of a campaign with `spec` gain the coordinates that SpecWith has given it; its result
+// is dropped. `spec_text`: as the user wrote it.
 void WriteAddedParameters(const CampaignFolder& folder, const CampaignSpec& spec,
                           const std::string& spec_text, journal::Journal& journal);
 

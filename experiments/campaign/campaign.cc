@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/counted.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
@@ -86,8 +87,8 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
     if (MayTell(asked) && TellEnded()) continue;  // what follows is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       for (const std::int64_t id : parts_.runner->TakeBackUnsent()) running_.erase(id);
-      console_.Line("ends when the " + std::to_string(running_.size()) +
-                    " running trials have ended; press Ctrl-C again to drop them");
+      console_.Line("ends after " + base::Counted(std::ssize(running_), "running trial") +
+                    "; press Ctrl-C again to drop them");
     }
     if (running_.empty()) {
       if (started) continue;  // they had ended in an earlier process

@@ -100,7 +100,6 @@ class Campaign {
   void NoteError(const std::string& error);
   void WriteResult(journal::ProgressRecord& progress);
   void NoteBest(const journal::TrialRecord& trial);
-  // Names the trial's experiment, where trials differ by experiment or scale factor.
   void Report(const journal::TrialRecord& trial);
   void ShowStatus();
   void ShowTrouble();

@@ -65,8 +65,7 @@ void KeepDrumFills(const nlohmann::json& written, const CampaignSpec& begun, Cam
   const auto states_fill = [](const nlohmann::json& place) {
     return place.contains("rig") && place.at("rig").contains("fill");
   };
-  if (states_fill(written)) return;
-  if (read.rig && begun.rig) read.rig->drum.fill = begun.rig->drum.fill;
+  if (!states_fill(written) && read.rig && begun.rig) read.rig->drum.fill = begun.rig->drum.fill;
   if (!read.experiments || !begun.experiments || !written.contains("experiments")) return;
   const nlohmann::json& entries = written.at("experiments");
   for (std::size_t i = 0; i < std::min(entries.size(), begun.experiments->size()); ++i) {

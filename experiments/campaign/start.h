@@ -31,7 +31,7 @@ struct BeginOptions {
   std::vector<std::filesystem::path> reuse{};
   // Told how photographs are read and what is taken of former trials, once the folder is there.
   std::function<void(const std::string&)> say = [](const std::string&) {};
-  // That the campaign simulates with, so that tests can put another in its place.
+  // The engine that the campaign simulates with; tests put another in its place.
   std::function<std::unique_ptr<trials::TrialEngine>()> engine{};
   // Throws ConfigError on what this floor cannot see, before anything is written.
   std::function<void(const CampaignSpec&)> check = [](const CampaignSpec&) {};
@@ -42,8 +42,6 @@ struct BeginOptions {
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder,
                    const BeginOptions& options = {});
 
-// Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
-// ConfigError that names what has changed in the spec where that is not allowed.
 struct OpenedCampaign {
   CampaignFolder folder;
   CampaignLock lock;
@@ -51,6 +49,8 @@ struct OpenedCampaign {
   CampaignSpec spec;
   bool engine_is_new = false;  // mended_engine.h; CampaignParts is to be told
 };
+// Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
+// ConfigError that names what has changed in the spec where that is not allowed.
 // `check`: throws ConfigError where what is asked does not go with the spec, before anything of the
 // campaign is changed.
 OpenedCampaign OpenCampaign(

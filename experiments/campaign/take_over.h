@@ -21,9 +21,9 @@ struct TakenOver {
 };
 
 struct NewExperiment {
-  const CampaignSpec& spec;    // which has it
-  int index = 0;               // of it
-  const Reference& reference;  // of it
+  const CampaignSpec& spec;    // of the campaign that has it
+  int index = 0;               // its place among the campaign's
+  const Reference& reference;  // what its trials are compared with
 };
 
 // Whether both search the same parameters, by name: what follows wants it.

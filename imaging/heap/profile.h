@@ -10,8 +10,9 @@
 namespace talus::imaging {
 
 // Pixel (column, row) has its centre at column + 0.5, row + 0.5; rows grow downwards.
-//   x [m] = (column + 0.5 - center_x) pixel_size       height [m] = (baseline - row - 0.5)
-//   pixel_size
+//
+//   x [m] = (column + 0.5 - center_x) pixel_size
+//   height [m] = (baseline - row - 0.5) pixel_size
 struct Frame {
   int width = 640;               // [px], > 0
   int height = 480;              // [px], > 0

@@ -1,5 +1,5 @@
 // Whether the photographs of a run, one behind the other, are of several heaps although their names
-// tell them for views of one.
+// say they are views of one.
 //
 // From heap to heap powder is weighed, filled in and lifted: minutes pass, and the plate is put
 // back a little elsewhere. From view to view the plate only turns. So one step between neighbours

@@ -298,6 +298,15 @@ std::string RecognisePattern(const std::vector<std::filesystem::path>& files) {
   return SortPhotos(files, kUsualPattern).runs.empty() ? "*" : kUsualPattern;
 }
 
+std::string MissingText(const PhotoSet& set) {
+  if (set.missing.empty()) return "";
+  const std::string first = base::Printable(set.missing.front());
+  const std::size_t more = set.missing.size() - 1;
+  if (more == 0) return first;
+  if (more == 1) return first + ", and another one is missing";
+  return first + ", and " + std::to_string(more) + " more are missing";
+}
+
 std::string ReadingText(const PhotoSet& set) {
   constexpr std::size_t kMostNames = 12;
   std::size_t views = 0;

@@ -47,6 +47,9 @@ std::string RecognisePattern(const std::vector<std::filesystem::path>& files);
 // not.
 std::string ReadingText(const PhotoSet& set);
 
+// "run 03 has no view 07, and 2 more are missing"; empty where nothing is.
+std::string MissingText(const PhotoSet& set);
+
 // The images in the folder, and in those within it, that are not in the set.
 std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& folder,
                                                 const PhotoSet& set);

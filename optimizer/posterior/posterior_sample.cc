@@ -5,7 +5,6 @@
 #include <numeric>
 
 namespace talus::optimizer {
-namespace {}  // namespace
 
 double LogSumExp(const Eigen::VectorXd& x) {
   const double most = x.maxCoeff();

@@ -8,8 +8,8 @@
 namespace talus::optimizer {
 namespace {
 
-// The largest of 8, 11, 16, 23, 32, … (8 · 2^(k/2), rounded) that is reached before or with n in
-// full: 11 for 12 evaluations, as 8 √2 is above 11. n itself below 8.
+// The largest of 8 · 2^(k/2), rounded (8, 11, 16, 23, 32, …), whose unrounded value is at most n: 8
+// for 11 evaluations, since 8 √2 = 11.3. n itself below 8.
 int MilestoneBefore(int n) {
   if (n < 8) return n;
   const double steps = std::floor(2 * std::log2(n / 8.0) + 1e-9);

@@ -1,4 +1,4 @@
-// The search over several scale factors and several experiments: which set to simulate next, for
+// The posterior's search, over all experiments and scale factors: which set to simulate next, for
 // which experiment, and with how coarse grains.
 //
 // First a design at the coarsest scale factor. Then the next set is a posterior draw where the

@@ -1,4 +1,4 @@
-// What the search over scale factors answers.
+// What the posterior's search answers.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -93,7 +93,7 @@ void PosteriorStrategy::Summarise(Answer& answer) {
 
 Answer PosteriorStrategy::RecommendUnmodelled() const {
   const std::vector<Observation> misses = WithMisses(observations_, targets_);
-  Answer answer = BestObserved(misses, domain_, "the search over scale factors");
+  Answer answer = BestObserved(misses, domain_, "the posterior's search");
   answer.predicted_value = 0;
   for (const Observation& told : observations_) {
     const bool has_image = targets_[static_cast<std::size_t>(told.experiment)].image.width > 0;

@@ -1,4 +1,4 @@
-// What the search over scale factors evaluates before its model chooses.
+// What the posterior's search evaluates before its model chooses.
 #include <algorithm>
 #include <cstddef>
 #include <optional>

@@ -73,8 +73,9 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
   std::vector<ObjectivePrediction> made(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     ObjectivePrediction& p = made[static_cast<std::size_t>(i)];
-    p.quantity =
-        info_.is_distance ? all.mean(i) : std::max(0.0, all.mean(i));  // a distance is not less
+    p.quantity = info_.is_distance
+                     ? all.mean(i)
+                     : std::max(0.0, all.mean(i));  // a sum of differences is never less
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
     // Not clamped: where many points fall below 0, the least of them is still one.
     p.objective = info_.Value(all.mean(i), reference_);

@@ -14,7 +14,7 @@ struct VtkExport {
 };
 
 // Writes heap.vtp, a file for each wall, and state.py; returns the state's path. Throws ConfigError
-// where the trial has no heap of this program's.
+// where the trial has left no spheres.
 std::filesystem::path ExportVtk(const VtkExport& request);
 
 }  // namespace talus::analysis

@@ -180,6 +180,10 @@ void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandida
   }
   const auto strategy = ModelOf(ground.view, {design.scale_factor}, made.target);
   TellDesign(design, made, *strategy);
+  if (!strategy->CanModel()) {
+    candidate.what = "tells nothing: its simulations show nothing that differs";
+    return;
+  }
   const optimizer::ExperimentModel& model = strategy->Model().models().front();
   const optimizer::OutputPredictions at = model.Predict(ground.draws);
   candidate.predicted = {

@@ -30,15 +30,15 @@ enum class AlarmKind {
   kPoorModel,            // a share `value` of the trials left out lay in their 90 % regions
   kExtrapolated,         // nothing was simulated at the target `scale_factor`
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
-  kBudgetEnded,          // … the search before its stopping rule, for `reason`; about `value`
-                         // simulations more
+  kBudgetEnded,          // the budget ended the search before its stopping rule did, for
+                         // `reason`; about `value` simulations more
   kFewSimulations,       // `value` at the smallest scale factor: the region may be too small
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
   kMoreThanFilled,       // from here on the words are those of who measured the photographs: they
                          // show a heap of `value` times the mass filled in
-  kLeftOut,              // … of `experiment`, one photograph or all
+  kLeftOut,              // photographs of `experiment` were left out, one or all
   kUnread,
   kSeveralHeaps,
   kRunDisagrees,

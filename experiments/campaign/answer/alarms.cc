@@ -369,8 +369,10 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   std::vector<Alarm>& alarms = answer.warnings;
   Append(AlikeAlarms(basis.trials, answer.experiments), alarms);
   Append(MissAlarms(answer), alarms);
-  // Without a posterior it has no prediction that would tell it apart.
-  std::erase_if(alarms, [&](const Alarm& a) { return a.experiment == basis.spec.hold_out; });
+  // Without a posterior nothing else tells MissAlarms that the experiment is held out.
+  if (basis.spec.hold_out) {
+    std::erase_if(alarms, [&](const Alarm& a) { return a.experiment == basis.spec.hold_out; });
+  }
   Append(FailureAlarms(basis.trials, answer), alarms);
   Append(PredictionAlarms(answer), alarms);
   Append(SearchAlarms(answer, basis.trials, basis.references), alarms);

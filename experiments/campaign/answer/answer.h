@@ -189,7 +189,8 @@ bool AsksForSimulations(const Answer& answer);
 // How many more there should be, where there should be some.
 int MoreSimulations(const Answer& answer);
 
-// "1.2, with the prediction's ± counted 4.8 times, as few are of the smallest scale factor".
+// "1.2, with the prediction's ± counted 4.8 times, as few simulations are at the smallest scale
+// factor".
 std::string ImplausibilityText(const ResultStanding& standing);
 
 }  // namespace talus::campaign

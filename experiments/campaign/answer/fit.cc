@@ -38,6 +38,15 @@ double ChanceOf(const Answer& answer, const ResultExperiment& experiment,
   return seeds * std::max(kFarImage, base::StudentFactor(confirmed.degrees, kNoChance));
 }
 
+// Where no runs say how far heaps are apart by chance: the SAD above which an image misses [mm²].
+// Nothing where the powder's area is not known.
+std::optional<double> LimitWithoutRuns(const ResultExperiment& experiment,
+                                       const ResultConfirmed& confirmed) {
+  if (!experiment.powder_area) return std::nullopt;
+  const double scatter = std::max(ScatterOfOne(confirmed), confirmed.spread_mm2.value_or(0));
+  return std::max(kMostShare * *experiment.powder_area, kCloseRuns * scatter);
+}
+
 Meets ImageMeets(const Answer& answer, const ResultExperiment& experiment,
                  const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2) return Meets::kUnknown;
@@ -46,11 +55,8 @@ Meets ImageMeets(const Answer& answer, const ResultExperiment& experiment,
     const double beyond = (1 - kCloseRuns / *confirmed.over_floor) * *confirmed.profile_sad_mm2;
     return beyond > ChanceOf(answer, experiment, confirmed) ? Meets::kNo : Meets::kUnknown;
   }
-  const double own = SadWithoutScatter(confirmed);
-  const double scatter = std::max(ScatterOfOne(confirmed), confirmed.spread_mm2.value_or(0));
-  const bool misses = experiment.powder_area && own > kMostShare * *experiment.powder_area &&
-                      own > kCloseRuns * scatter;
-  return misses ? Meets::kNo : Meets::kUnknown;
+  const auto limit = LimitWithoutRuns(experiment, confirmed);
+  return limit && SadWithoutScatter(confirmed) > *limit ? Meets::kNo : Meets::kUnknown;
 }
 
 // How far apart they are in standard errors; a few simulations have one, too.
@@ -183,8 +189,9 @@ MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candida
     if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
     if (confirmed.over_floor) {
       add("", *confirmed.over_floor / kCloseRuns);
-    } else if (confirmed.profile_sad_mm2 && experiment->powder_area) {
-      add("", SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
+    } else if (const auto limit = LimitWithoutRuns(*experiment, confirmed);
+               limit && confirmed.profile_sad_mm2) {
+      add("", SadWithoutScatter(confirmed) / *limit);
     }
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
       const ResultNumber& measured = experiment->numbers[i];

@@ -13,7 +13,8 @@
 namespace talus::campaign {
 namespace {
 
-constexpr double kOpen = 0.8;  // … above which the parameter is not determined at all
+// Share of the searched range [-] from which on a parameter is not determined at all.
+constexpr double kOpen = 0.8;
 
 // The answer with what the sentences call its parameters.
 struct Told {

@@ -19,7 +19,7 @@ struct HeldOut {
 // Throws ConfigError when the campaign has no experiment of this name or no other one.
 HeldOut HoldOut(const JointView& view, const std::string& name);
 
-// "mass_fallen_kg: predicted 2.1e-05 ± 2e-06, measured …", one for each of its numbers, and for its
+// "mass fallen: predicted 21 mg ± 2 mg, measured …", one for each of its numbers, and for its
 // objective and implausibility.
 std::vector<std::string> HeldOutFacts(const ResultHeldOut& held_out,
                                       const std::string& objective_unit);

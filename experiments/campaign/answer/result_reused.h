@@ -21,7 +21,7 @@ struct ResultReused {
 // By folder, in the order in which they were told. `num_cores`: of a trial.
 std::vector<ResultReused> ReusedBy(std::span<const journal::TrialRecord> trials, int num_cores);
 
-// "46 simulations of /data/heap_1 (0.07 core hours)"
+// "46 simulations of /data/heap_1 (0.07 core hours there)"
 std::string ReusedText(const ResultReused& reused);
 // A line each, as terminal and status show them.
 std::string ReusedLines(const std::vector<ResultReused>& list);

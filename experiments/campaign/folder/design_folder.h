@@ -33,7 +33,7 @@ struct DesignFolder {
   std::filesystem::path root;
 
   std::filesystem::path trial(std::size_t index) const;  // trials/0001 is index 0
-  // Nothing where there is none. Throws base::Error when it is damaged.
+  // Nothing where there is none, or where it is damaged: it is simulated again.
   std::optional<DesignRecord> Read() const;
   // Replaces what is there.
   void Make(const DesignRecord& record) const;

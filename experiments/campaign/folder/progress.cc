@@ -18,7 +18,7 @@ std::string OutcomeText(const TrialProgress& trial) {
   }
   if (text.empty()) return "what was measured is not defined of it";
   if (!trial.best) return text;
-  return text + ", the best so far" + (trial.scale_factor ? " at the smallest scale factor" : "");
+  return text + ", the best so far at the smallest scale factor";
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::string ProgressText(const TrialProgress& trial) {
         (i == 0 ? " at " : ", ") + trial.parameters[i] + " " + base::ShortNumber(trial.values[i]);
   }
   if (!trial.experiment.empty()) text += ", " + trial.experiment;
-  if (trial.scale_factor) text += " at scale factor " + base::ShortNumber(*trial.scale_factor);
+  text += " at scale factor " + base::ShortNumber(trial.scale_factor);
   if (trial.status == journal::TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
   } else {

@@ -30,8 +30,8 @@ struct TrialProgress {
   journal::TrialStatus status = journal::TrialStatus::kRunning;
   std::vector<std::string> parameters{};  // names of the free ones
   std::vector<double> values{};           // … in this order, native units
-  std::optional<double> scale_factor{};   // where the campaign has several
-  std::string experiment{};               // its name, where the campaign has several
+  double scale_factor = 1;
+  std::string experiment{};               // its name
   std::optional<double> objective{};      // none where it is not defined
   std::string unit{};                     // of the objective, for people: "mm²"
   std::vector<NumberProgress> numbers{};  // those of the experiment that it has

@@ -95,7 +95,7 @@ double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace,
   return left / pace.at_a_time;
 }
 
-// What follows the answer by itself, further tests and what it owes to the fixed, [s].
+// Wall time of what follows the answer by itself: further tests and sensitivity [s].
 double AfterwardsLeft(const CampaignSpec& spec, double core_time, int at_a_time) {
   const bool advises =
       spec.engine.kind == EngineKind::kTalus && spec.runner.kind == RunnerKind::kLocal;

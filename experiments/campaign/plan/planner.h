@@ -62,7 +62,7 @@ class Planner {
   std::vector<const journal::TrialRecord*> Confirming(const Eigen::VectorXd& candidate,
                                                       int experiment) const;
 
-  // Strategy::CredibleLevels; the evaluations told so far.
+  // As Strategy::CredibleLevels, from what was told so far.
   std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) const {
     return posterior_->CredibleLevels(points);
   }

@@ -42,7 +42,7 @@ struct Stop {
   }
 };
 
-// As the first trials of all: the set-up is wrong.
+// So many failures and no success: the set-up is wrong.
 inline constexpr std::size_t kFailuresToGiveUp = 8;
 
 // Whether all of its trials, kFailuresToGiveUp or more, have failed. Reused ones do not count: the

@@ -1,5 +1,5 @@
 // In which order trials that run side by side are told to the strategy: not as they end, which
-// hangs on the machine, but as they were expected to. So equal specs and seeds make equal
+// depends on the machine, but as they were expected to. So equal specs and seeds make equal
 // campaigns, with as many trials at a time.
 #pragma once
 

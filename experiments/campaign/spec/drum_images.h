@@ -19,7 +19,8 @@ bool HasFill(const ExperimentSpec& experiment);  // in place of a mass
 // average of one. A map with a frame is a profile already. The rig is filled in.
 bool ShowsDrum(const ExperimentSpec& experiment);
 
-// What is of no drum's photographs, or of those only.
+// Adds a problem for each option that a drum's photographs do not take, and for each of theirs that
+// other images do not.
 void ValidateDrumImages(const ExperimentSpec& experiment, const std::string& place,
                         base::Problems& problems);
 

@@ -9,8 +9,8 @@
 
 namespace talus::campaign {
 
-// Adds a problem for every angle beyond a right one and every share above 1. `prefix` stands before
-// a number's key: "experiments[1].", or nothing.
+// Adds a problem for every angle beyond a right one, every share above 1 and every error as large
+// as its value. `prefix` stands before a number's key: "experiments[1].", or nothing.
 void RequirePossible(const MeasuredNumbers& numbers, const std::string& prefix,
                      base::Problems& problems);
 

@@ -12,7 +12,6 @@
 #include "base/problems.h"
 #include "base/text/key_text.h"
 #include "base/text/number_text.h"
-#include "base/text/printable.h"
 #include "base/units.h"
 #include "experiments/rigs/case/case_warnings.h"
 
@@ -56,9 +55,7 @@ std::string ScaleFactors(double grains_across) {
 
 std::string MissingViews(const SpecAnswers& answers) {
   if (answers.missing.empty()) return "";
-  const std::size_t more = answers.missing.size() - 1;
-  return "    // " + base::Printable(answers.missing.front()) +
-         (more == 0 ? "" : ", and " + std::to_string(more) + " more are missing") +
+  return "    // " + answers.missing +
          ": true goes on without them and\n    // without photographs that cannot be used, and "
          "says which; false refuses both\n    \"allow_missing_views\": true,\n";
 }

@@ -18,7 +18,7 @@ struct SpecAnswers {
   std::filesystem::path folder;         // of the photographs, or
   std::string pattern;                  // … of their names in it
   std::vector<imaging::PhotoRun> runs;  // or these, heap by heap
-  std::vector<std::string> missing{};   // views that some heaps lack, in words
+  std::string missing{};                // views that some heaps lack, in words
   std::string plate_diameter;
   std::string scale;  // of a heap on a table; empty with a plate
   std::string tube_diameter;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/rigs/case/case_warnings.h"
@@ -118,9 +119,8 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
       if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
       const double across = rigs::GrainsAcrossPlate(rig_case);
       problems.Require(across >= kFewestAcross, "coarse_graining",
-                       "leaves " + std::to_string(across).substr(0, 4) +
-                           " grains across the plate of \"" + experiments[e].name +
-                           "\" at scale factor " + std::to_string(factor).substr(0, 4) +
+                       "leaves " + base::ShortNumber(across, 3) + " grains across the plate of \"" +
+                           experiments[e].name + "\" at scale factor " + base::ShortNumber(factor) +
                            ", must be 10 or more: their heap says nothing of the powder");
     }
   }

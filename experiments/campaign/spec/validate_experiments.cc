@@ -11,6 +11,7 @@
 
 #include "base/text/counted.h"
 #include "base/text/joined.h"
+#include "base/text/number_text.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
@@ -44,7 +45,7 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
       tube ? "is not the device's plate_diameter: one of the two is wrong, or the experiment needs "
              "a "
              "device of its own"
-           : "is not the width of the rig, " + std::to_string(1e3 * width) +
+           : "is not the width of the rig, " + base::ShortNumber(1e3 * width) +
                  " mm: the images are of another test, or the experiment needs a rig of its own");
 }
 

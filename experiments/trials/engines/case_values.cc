@@ -11,6 +11,7 @@
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/time_step.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -137,7 +138,7 @@ TemplateValues CaseValues(const rigs::Case& c) {
   scalars["surface_energy_used"] = base::ExactNumber(rigs::UsedMaterial(c).surface_energy);
   scalars["full_mobilisation_damping"] = base::ExactNumber(c.models.full_mobilisation_damping);
   scalars["adhesion_cutoff"] = base::ExactNumber(c.models.adhesion_cutoff);
-  scalars["rayleigh_fraction"] = base::ExactNumber(c.rayleigh_fraction);
+  scalars["rayleigh_fraction"] = base::ExactNumber(rigs::StepFraction(c));
   scalars["gravity"] = base::ExactNumber(c.gravity);
   scalars["settling_time"] = base::ExactNumber(c.rules.settling.max_time);
   scalars["rest_time"] = base::ExactNumber(c.rules.heap.max_time);

@@ -61,7 +61,7 @@ void DrawHeap(const rigs::Case& rig_case, const std::filesystem::path& folder,
   result["profile"]["num_views"] = num_views;
 }
 
-// The same grains are f times as large as others here: of these as many more have fallen.
+// num_fallen counts true grains, of which a simulated one is f³.
 void TakeScaleFactor(double factor, nlohmann::ordered_json& result) {
   const auto conditions = result.find("conditions");
   if (conditions == result.end()) return;

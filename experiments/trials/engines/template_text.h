@@ -29,7 +29,7 @@ struct TemplateValues {
 // A text parted at its tags.
 class TextTemplate {
  public:
-  // Throws ConfigError "FILE:LINE:COLUMN: …" for a tag that is not closed or not a name.
+  // Throws ConfigError "FILE:LINE: …" for a tag that is not closed or not a name.
   TextTemplate(std::string_view text, std::string file);
 
   // Reports, under the file's name, every name that `known` lacks, with the nearest one.

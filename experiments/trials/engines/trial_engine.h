@@ -14,8 +14,7 @@
 
 namespace talus::trials {
 
-// In a campaign's folder: locked while a process works on the campaign. The trials are in
-// trials/ID.
+// In a campaign's folder: locked while a process works on the campaign.
 inline constexpr const char* kCampaignLock = "campaign.lock";
 
 struct TrialOutput {

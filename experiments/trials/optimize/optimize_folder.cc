@@ -170,12 +170,9 @@ std::optional<Evaluated> OptimizeFolder::Recorded(int number) const {
 
 void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_width) {
   const optimizer::Observation& observation = evaluated.observation;
-  json native;
-  const std::vector<double> values = problem_.space.ToNative(observation.point);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    native[problem_.space.parameters[i].name] = values[i];
-  }
-  json line{{"evaluation", number}, {"parameters", native}, {"point", ToList(observation.point)}};
+  json line{{"evaluation", number},
+            {"parameters", NativeParameters(problem_, observation.point)},
+            {"point", ToList(observation.point)}};
   if (observation.failed) {
     line["failed"] = evaluated.failure;
   } else {

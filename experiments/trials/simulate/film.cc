@@ -112,7 +112,7 @@ void Film::Look(const rigs::RigRun& run) {
   }
   scenes_.push_back(std::move(scene));
   if (IsFull()) {
-    for (std::size_t i = 0; 2 * i < scenes_.size(); ++i) scenes_[i] = std::move(scenes_[2 * i]);
+    for (std::size_t i = 1; 2 * i < scenes_.size(); ++i) scenes_[i] = std::move(scenes_[2 * i]);
     scenes_.resize(scenes_.size() / 2);
     interval_ = simulation.time() / static_cast<double>(scenes_.size());
   }

@@ -127,8 +127,10 @@ TEST(Progress, TrialLinesNameTheirParameters) {
                             .objective = 1.2,
                             .unit = "mm²",
                             .duration = 12};
-  EXPECT_EQ(ProgressText(trial),
-            "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², 12 s");
+  EXPECT_EQ(
+      ProgressText(trial),
+      "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1 at scale factor 1: 1.2 mm², "
+      "12 s");
 }
 
 // A drum without images has an angle, and no area by which it differs.
@@ -140,10 +142,11 @@ TEST(Progress, TrialLinesHaveTheNumbersOfTheirTestInTheUnitsThatPeopleRead) {
                       .numbers = {{"angle_deg", 43.5}, {"mass_fallen_kg", 23e-6}},
                       .duration = 2};
   EXPECT_EQ(ProgressText(trial),
-            "trial 7 (search) at sliding_friction 0.3, mixer: angle 43.5°, mass fallen 23 mg, 2 s");
+            "trial 7 (search) at sliding_friction 0.3, mixer at scale factor 1: angle 43.5°, mass "
+            "fallen 23 mg, 2 s");
   trial.numbers.clear();
   EXPECT_EQ(ProgressText(trial),
-            "trial 7 (search) at sliding_friction 0.3, mixer: "
+            "trial 7 (search) at sliding_friction 0.3, mixer at scale factor 1: "
             "what was measured is not defined of it, 2 s");
 }
 

@@ -181,12 +181,17 @@ TEST(DrawDown, WhatClingsToTheShelvesHasNotFallen) {
   c.powder.material.surface_energy = 0.05;
   const auto rig = Ran(c);
   const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
-  double on_floor = 0;
+  const double fallen = result["observables"]["mass_fallen_kg"];
+  double in_lower_half = 0, elsewhere = 0, at_underside = 0;
   for (const engine::Particle& p : rig->simulation().Particles()) {
-    if (p.position.z < 0.01)
-      on_floor += kDensity * 4 / 3 * std::numbers::pi * std::pow(p.radius, 3);
+    if (p.position.z >= 0.02) continue;
+    const double mass = kDensity * 4 / 3 * std::numbers::pi * std::pow(p.radius, 3);
+    const bool touches = p.position.z > 0.02 - 1.1 * p.radius;
+    (touches ? at_underside : p.position.z < 0.01 ? in_lower_half : elsewhere) += mass;
   }
-  EXPECT_NEAR(double(result["observables"]["mass_fallen_kg"]), on_floor, 1e-9);
+  EXPECT_GT(at_underside, 0);
+  EXPECT_GE(fallen, in_lower_half - 1e-9);
+  EXPECT_LE(fallen, in_lower_half + elsewhere + 1e-9);  // some of what is there hangs on by others
 }
 
 TEST(Flow, HasStoppedWhenNothingHasPassedForLongEnough) {
