@@ -24,9 +24,9 @@ std::string TextOf(const StopReason& r) {
       return gain + Rounded(r.limit) +
              " x the lower quartile of the design's values less the lowest, " + Rounded(r.scale);
     case StopRule::kShare:
-      return "more simulations would hardly narrow the answer (no number of them a range by more "
+      return "more simulations would hardly narrow the answer (no number of them any range by more "
              "than " +
-             PercentText(r.value) + ", below " + PercentText(r.limit) + ")";
+             PercentText(r.value) + ", and " + PercentText(r.limit) + " would be worth it)";
     case StopRule::kConverged:
       return r.name + " has converged";
     case StopRule::kAllEvaluated:
@@ -48,7 +48,7 @@ std::string TextOf(const StopReason& r) {
 std::string TextOf(const StopShortfall& s, const std::vector<std::string>& names) {
   switch (s.lack) {
     case StopLack::kFirstTrials:
-      return "the first trials at each scale factor are missing";
+      return "not every test has its first trials at every scale factor yet";
     case StopLack::kGain:
       return "a better set may still be found";
     case StopLack::kShare:

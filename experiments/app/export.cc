@@ -2,7 +2,9 @@
 #include "experiments/analysis/export/export.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,7 +35,7 @@ void AddExportCommand(CLI::App& app) {
   command
       ->add_option("--trial", arguments->trial,
                    "whose heap; default: of the recommended set, else the best so far")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
       ->needs(vtk);
   command->callback([arguments] {
     const std::filesystem::path folder = arguments->folder;

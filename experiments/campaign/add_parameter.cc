@@ -39,10 +39,11 @@ double ValueOfTrials(const CampaignSpec& spec, const std::string& name) {
       const std::optional<double> here = ParameterOf(rig_case, name);
       if (!here) continue;
       if (value && *here != *value) {
-        throw base::ConfigError("--search: " + name + " was not the same in all trials: it is " +
-                                base::ShortNumber(*value) + " in one and " +
-                                base::ShortNumber(*here) +
-                                " in another; begin a new campaign that searches it");
+        throw base::ConfigError(
+            "--search: " + name +
+            " is not the same in all trials: over what is searched it goes from " +
+            base::ShortNumber(*value) + " to " + base::ShortNumber(*here) +
+            "; begin a new campaign that searches it");
       }
       value = here;
     }

@@ -153,6 +153,23 @@ TEST_F(Optimize, ACommandThatNeverMakesSenseEndsItWithAReason) {
   EXPECT_THAT(errors_, HasSubstr("have all failed, the last: exit status 1"));
 }
 
+// What had failed while the command was broken walled the search off from its minimum.
+TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllHadFailed) {
+  Write("problem.json", "{\"evaluations\": 24, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("ask.sh", "test -e mended && exec " + kCommand + "value; exit 3\n");
+  const std::string arguments = "problem.json --out search --quiet -- sh ask.sh";
+  ASSERT_EQ(Talus(arguments), 1);
+  EXPECT_THAT(errors_, HasSubstr("the first 8 evaluations have all failed"));
+  ASSERT_EQ(Talus(arguments), 1);
+  EXPECT_THAT(errors_, HasSubstr("the first 8 evaluations have all failed"));
+  Write("mended", "");
+  ASSERT_EQ(Talus(arguments), 0) << errors_;
+  const json mended = json::parse(base::ReadFile(folder_ / "search/result.json"));
+  ASSERT_EQ(Talus("problem.json --out anew --quiet -- sh ask.sh"), 0) << errors_;
+  const json anew = json::parse(base::ReadFile(folder_ / "anew/result.json"));
+  EXPECT_EQ(mended["recommended"], anew["recommended"]);
+}
+
 // Every sixth evaluation prints a stray line, nothing, NaN, 1e400 or null.
 TEST_F(Optimize, SenselessAnswersAreFailedEvaluations) {
   Write("problem.json", "{\"evaluations\": 30, \"parameters\": " + std::string(kUnitSquare) + "}");

@@ -16,7 +16,7 @@ namespace {
 using base::ShortNumber;
 
 std::string RangeText(const BatchRange& range) {
-  return ShortNumber(range.median) + " (90 % in " + ShortNumber(range.low) + " … " +
+  return ShortNumber(range.median) + " (median; 90 % in " + ShortNumber(range.low) + " … " +
          ShortNumber(range.high) + ")";
 }
 
@@ -30,8 +30,9 @@ std::string ParameterText(const BatchParameter& p, std::size_t batch) {
   const std::string change =
       (p.IsLog() ? "× " : "") + (p.IsLog() ? RangeText(d.range) : WithUnit(RangeText(d.range), p));
   return p.name + "  " + RangeText(p.batches.front()) + " → " +
-         WithUnit(RangeText(p.batches[batch]), p) + "; difference " + change + ", larger than " +
-         ChangeText(p, d.matters) + " with probability " + ShortNumber(d.probability, 2);
+         WithUnit(RangeText(p.batches[batch]), p) + "; difference " + change +
+         ", either way larger than " + ChangeText(p, d.matters) + " with probability " +
+         ShortNumber(d.probability, 2);
 }
 
 std::string TogetherText(const BatchTogether& together) {

@@ -91,8 +91,9 @@ std::string FromTrials(const ComparedCampaign& compared) {
     if (!f.absent.empty()) continue;
     const ComparedSet& best = f.from_trials.best.front();
     Row row = SetRow(f, Shown(f, best.quantity), best.values);
-    row.push_back(std::to_string(f.from_trials.num_tied) + " of " +
-                  std::to_string(f.from_trials.num_sets));
+    row.push_back(std::isnan(f.noise_sd) ? "-"
+                                         : std::to_string(f.from_trials.num_tied) + " of " +
+                                               std::to_string(f.from_trials.num_sets));
     rows.push_back(row);
   }
   return rows.size() > 1 ? Aligned(rows) + "\n" : "";
@@ -134,15 +135,18 @@ std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f)
 // Seeds may change nothing, in another engine's command or for grains on a lattice.
 std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
   std::string text;
-  bool any_scatter = false;
+  bool any_scatter = false, any_unknown = false;
   for (const ObjectiveFinding& f : findings) {
     if (!f.absent.empty()) continue;
+    any_unknown |= std::isnan(f.noise_sd);
+    if (std::isnan(f.noise_sd)) continue;
     any_scatter |= f.noise_sd != 0;
-    text += (text.empty() ? "" : "; ") + f.info.title + " " +
-            (std::isnan(f.noise_sd) ? "not known, no set was simulated twice"
-                                    : Shown(f, f.noise_sd, 2) + " " + f.info.unit);
+    text += (text.empty() ? "" : "; ") + f.info.title + " " + Shown(f, f.noise_sd, 2) + " " +
+            f.info.unit;
   }
-  if (text.empty()) return "";
+  if (text.empty()) {
+    return any_unknown ? "  Which sets tie is not known: no set was simulated twice.\n" : "";
+  }
   if (!any_scatter) return "  Simulations of one set came out alike: only equal sets tie.\n";
   return "  Sets tie when they differ by at most the scatter of one simulation: " + text + ".\n";
 }

@@ -41,8 +41,9 @@ Rig::Rig(const Case& rig_case, const Vessel& vessel, RigState state, engine::Sim
   if (case_.filling.kind == FillingKind::kPour) pour_ = MakePour(case_, vessel_);
   if (simulation_.step() > 0) return;
   if (pour_) {
-    Say(Format("pouring %zu grains, %.4g mm deep, at %.4g g/s", pour_->plan().radii.size(),
-               1e3 * DropHeight(case_, vessel_), 1e3 * pour_->plan().rate));
+    Say(Format("pouring %zu grains, from %.4g mm above the powder, at %.4g g/s",
+               pour_->plan().radii.size(), 1e3 * DropHeight(case_, vessel_),
+               1e3 * pour_->plan().rate));
   } else {
     Say(Format("filled %lld grains to %.4g mm; %d sweeps, largest overlap %.2g of a radius",
                static_cast<long long>(state_.num_filled), 1e3 * state_.filled_height,

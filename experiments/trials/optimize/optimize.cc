@@ -22,9 +22,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// Nothing has worked by then: the command is wrong, not the parameters.
-constexpr int kHopeless = 8;
-
 class OptimizeLoop {
  public:
   OptimizeLoop(const OptimizeProblem& problem, const std::vector<std::string>& command,

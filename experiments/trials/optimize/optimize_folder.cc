@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -152,6 +153,10 @@ void OptimizeFolder::Load() {
     }
     recorded_.insert_or_assign(number, std::move(evaluated));
   }
+  const bool any = std::ranges::any_of(
+      recorded_, [](const auto& known) { return !known.second.observation.failed; });
+  // The command was wrong, and has been mended since; what failed says nothing of the parameters.
+  if (!any && recorded_.size() >= static_cast<std::size_t>(kHopeless)) recorded_.clear();
   if (complete < text.size()) std::filesystem::resize_file(path, complete);
 }
 

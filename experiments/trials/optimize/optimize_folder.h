@@ -17,11 +17,15 @@
 
 namespace talus::trials {
 
+// So many failures and no success: the command is wrong, not the parameters.
+inline constexpr int kHopeless = 8;
+
 class OptimizeFolder {
  public:
   // Makes the folder, or takes over one of the same problem; `evaluations`, `workers` and
-  // `time_cap` may differ. Throws base::ConfigError where the problem is another one or files are
-  // damaged, and base::Error while another process works in it.
+  // `time_cap` may differ. Where it holds kHopeless failures and no success they are made again:
+  // the command has been mended. Throws base::ConfigError where the problem is another one or files
+  // are damaged, and base::Error while another process works in it.
   OptimizeFolder(std::filesystem::path root, const OptimizeProblem& problem,
                  const std::vector<std::string>& command);
   OptimizeFolder(const OptimizeFolder&) = delete;

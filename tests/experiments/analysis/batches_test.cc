@@ -241,7 +241,8 @@ TEST(BatchesText, DifferencesOfEnergiesAreFactorsAndThoseOfLinearOnesHaveTheirUn
   c.together = {{.batch = "b", .is_found = true}};
   EXPECT_EQ(VerdictOf(c, 1).text, "differs: surface_energy by a factor of 2");
   c.verdicts = {VerdictOf(c, 1)};
-  EXPECT_THAT(BatchesText(c), HasSubstr("difference × 2 (90 % in 1.2 … 3), larger than × 1.5"));
+  EXPECT_THAT(BatchesText(c),
+              HasSubstr("difference × 2 (median; 90 % in 1.2 … 3), either way larger than × 1.5"));
   EXPECT_THAT(BatchesSvg(c, energy), HasSubstr("10⁻⁵"));  // a tick of a logarithmic axis
   energy.scale = "linear";
   EXPECT_EQ(VerdictOf(c, 1).text, "differs: surface_energy by 2 J/m2");

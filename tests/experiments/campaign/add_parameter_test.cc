@@ -96,7 +96,7 @@ TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
   EXPECT_THAT(ErrorOf(folder, "fill=0.2..0.4"), HasSubstr("has no value in the trials so far"));
   // The plate follows the powder's friction, which differs from trial to trial.
   EXPECT_THAT(ErrorOf(folder, "plate_sliding_friction=0..0.9"),
-              HasSubstr("was not the same in all trials"));
+              HasSubstr("is not the same in all trials"));
   EXPECT_EQ(TrialTable(folder), table);
 }
 

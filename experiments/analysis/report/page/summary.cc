@@ -147,7 +147,8 @@ std::string Fits(const Evidence& evidence) {
   for (std::size_t i = 0; i < std::min(evidence.fit.size(), kMostFits); ++i) {
     const FitRow& row = evidence.fit[i];
     const bool yes = row.meets == campaign::Meets::kYes, no = row.meets == campaign::Meets::kNo;
-    rows += Element("tr", Text("td", row.experiment + ", " + row.what) +
+    const std::string name = row.experiment + ", " + row.what + (row.held_out ? ", held out" : "");
+    rows += Element("tr", Text("td", name) +
                               Text("td",
                                    yes  ? "fits"
                                    : no ? "misses"
