@@ -17,6 +17,10 @@ double PressedOverlap(const PairConstants& pair, double stress) {
       2.0 / 3);
 }
 
+double BedStress(double density, double gravity, double solid_volume) {
+  return kSolidFraction * density * gravity * std::cbrt(solid_volume / kSolidFraction);
+}
+
 double AdhesiveStress(const PairConstants& pair, double radius) {
   const double force = pair.pull_off * radius / 2;
   return kContactsOfSolid * force / (4 * std::numbers::pi * radius * radius);

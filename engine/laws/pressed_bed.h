@@ -17,6 +17,10 @@ namespace talus::engine {
 // Mean δ/R [-] between like grains under a stress [Pa].
 double PressedOverlap(const PairConstants& pair, double stress);
 
+// The stress [Pa] at the bottom of a bed as high as it is wide: of grains of this density [kg/m³]
+// under gravity [m/s²], of this volume of solid [m³].
+double BedStress(double density, double gravity, double solid_volume);
+
 // The stress [Pa] that would press like grains of this radius [m] as their adhesion does (A1).
 double AdhesiveStress(const PairConstants& pair, double radius);
 

@@ -23,9 +23,4 @@ double LongestRollingStep(const PairConstants& pair, const BedGrains& grains) {
   return of_a_second > 0 ? kMostDampedShare / of_a_second : std::numeric_limits<double>::infinity();
 }
 
-double BedStress(double density, double gravity, double solid_volume) {
-  constexpr double kSolidFraction = 0.6;
-  return kSolidFraction * density * gravity * std::cbrt(solid_volume / kSolidFraction);
-}
-
 }  // namespace talus::engine

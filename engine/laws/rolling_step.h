@@ -21,7 +21,8 @@ inline constexpr double kMostDampedShare = 0.36;
 struct BedGrains {
   double radius = 0;   // R [m], > 0
   double density = 0;  // ρ [kg/m³], > 0
-  double stress = 0;   // that presses them together, adhesion apart [Pa], >= 0
+  double stress = 0;   // that presses them together, adhesion apart [Pa], >= 0; a goes with its
+                       // sixth root, so that BedStress is near enough
 };
 
 // a [-] of a step of Δt [s].
@@ -29,9 +30,5 @@ double DampedShare(const PairConstants& pair, const BedGrains& grains, double dt
 
 // Δt [s] at which a is kMostDampedShare; infinite where nothing damps.
 double LongestRollingStep(const PairConstants& pair, const BedGrains& grains);
-
-// The stress at the bottom of a bed as high as it is wide, of this volume of solid [m³]. The share
-// goes with its sixth root: that is near enough for any bed.
-double BedStress(double density, double gravity, double solid_volume);
 
 }  // namespace talus::engine

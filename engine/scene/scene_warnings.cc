@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text/number_text.h"
+#include "engine/laws/pressed_bed.h"
 #include "engine/laws/rolling_step.h"
 
 namespace talus::engine {

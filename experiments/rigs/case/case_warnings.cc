@@ -71,9 +71,8 @@ std::string ShortStepWarning(const Case& c) {
   if (fraction >= kWorthSaying * c.rayleigh_fraction) return {};
   return "the time step is " + base::ShortNumber(fraction, 2) + " Rayleigh times in place of " +
          base::ShortNumber(c.rayleigh_fraction) +
-         ": the rolling dashpot would keep grains spinning at a longer one (docs/physics.md, M6); "
-         "a "
-         "smaller rolling_damping takes fewer steps";
+         ": the rolling dashpot would keep grains spinning at a longer one (docs/physics.md, "
+         "M6); a smaller rolling_damping takes fewer steps";
 }
 
 // Grains that are nearly as large as the gap are carried along by the spreader or stop it.

@@ -4,6 +4,7 @@
 
 #include "engine/bodies/particle.h"
 #include "engine/laws/pair_constants.h"
+#include "engine/laws/pressed_bed.h"
 #include "engine/laws/rolling_step.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/materials.h"
