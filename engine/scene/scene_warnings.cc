@@ -61,7 +61,8 @@ Grains GrainsOf(const SceneSpec& spec, const Scene& scene) {
 }
 
 // A rolling dashpot that the step does not resolve.
-void AddRollingStep(const SceneSpec& spec, const Scene& scene, std::vector<std::string>& warnings) {
+void AddRollingStep(const SceneSpec& spec, const Scene& scene, double dt,
+                    std::vector<std::string>& warnings) {
   if (scene.models.rolling != Rolling::kEpsd) return;
   const Grains grains = GrainsOf(spec, scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
@@ -72,7 +73,7 @@ void AddRollingStep(const SceneSpec& spec, const Scene& scene, std::vector<std::
     const double longest = LongestRollingStep(
         MakePairConstants(material, material, scene.models),
         {.radius = grains.smallest[m], .density = material.density, .stress = stress});
-    if (TimeStep(scene) <= longest) continue;
+    if (dt <= longest) continue;
     warnings.push_back("materials[" + std::to_string(m) +
                        "].rolling_damping: its dashpot would keep the spheres of a bed spinning at "
                        "this time step (docs/physics.md, M6): take a time_step of " +
@@ -103,7 +104,7 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
          << " of the Rayleigh time of the smallest sphere; above 0.20 contacts are resolved poorly";
     warnings.push_back(text.str());
   }
-  AddRollingStep(spec, scene, warnings);
+  AddRollingStep(spec, scene, dt, warnings);
   if (spec.stop.steps && !spec.outputs.times.empty() &&
       spec.outputs.times.back() > static_cast<double>(*spec.stop.steps) * dt) {
     warnings.push_back("the last of outputs.times comes after stop.steps and is not written");
