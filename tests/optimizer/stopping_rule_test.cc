@@ -37,7 +37,7 @@ TEST(StoppingRule, CalibrationsEndWhereNoNumberOfTrialsWouldNarrowARange) {
   ASSERT_TRUE(reason);
   EXPECT_EQ(reason->rule, StopRule::kShare);
   EXPECT_DOUBLE_EQ(reason->value, 0.049);
-  EXPECT_THAT(TextOf(*reason), HasSubstr("no number of them a range by more than 4.9 %"));
+  EXPECT_THAT(TextOf(*reason), HasSubstr("by more than 4.9 %"));
   EXPECT_FALSE(StopByOutlook({.all = {0.051, 0.02}, .temper = 1.1}, 0.05));
   EXPECT_FALSE(StopByOutlook({.all = {0.028}, .temper = 2.9},
                              0.05));  // an early model that misses a third of its trials
