@@ -1,5 +1,7 @@
-// Where a sphere is: what the engine hands to the images.
+// Where a sphere is, what the engine hands to the images; and its volume.
 #pragma once
+
+#include <numbers>
 
 #include "base/vec3.h"
 
@@ -9,5 +11,10 @@ struct Sphere {
   Vec3 position;      // centre [m]
   double radius = 0;  // [m], > 0
 };
+
+// [m³]
+inline double SphereVolume(double radius) {
+  return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+}
 
 }  // namespace talus::base

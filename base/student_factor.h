@@ -9,6 +9,9 @@
 
 namespace talus::base {
 
+// Standard deviations on each side of a normal variable's 90 %.
+inline constexpr double kNormal90 = 1.6448536269514722;
+
 // t for `share` p in (0, 1) and `degrees` ν >= 1, infinity among them.
 double StudentFactor(double degrees, double share);
 

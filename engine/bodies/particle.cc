@@ -3,10 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/sphere.h"
+
 namespace talus::engine {
 
 double SphereMass(const Material& material, double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * material.density;
+  return base::SphereVolume(radius) * material.density;
 }
 
 double RayleighTime(const Material& material, double radius) {

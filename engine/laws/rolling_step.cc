@@ -2,15 +2,15 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "base/sphere.h"
 #include "engine/laws/pressed_bed.h"
 
 namespace talus::engine {
 
 double DampedShare(const PairConstants& pair, const BedGrains& grains, double dt) {
   const double r = grains.radius;
-  const double mass = 4.0 / 3.0 * std::numbers::pi * grains.density * r * r * r;
+  const double mass = grains.density * base::SphereVolume(r);
   const double i_star = 0.7 * mass * r * r;
   const double stress = grains.stress + AdhesiveStress(pair, r);
   const double s = r * std::sqrt(PressedOverlap(pair, stress) / 2);             // √(R* δ)

@@ -1,8 +1,8 @@
 #include "engine/run/bed.h"
 
-#include <numbers>
 #include <vector>
 
+#include "base/sphere.h"
 #include "engine/run/resisted_spins.h"
 
 namespace talus::engine {
@@ -17,7 +17,7 @@ Bed MeasureBed(const Simulation& simulation, const Vessel& vessel) {
     if (p.id >= vessel.end_id || p.position.z < vessel.floor) continue;  // has fallen out
     counts[i] = true;
     ++grains;
-    const double v = 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
+    const double v = base::SphereVolume(p.radius);
     volume += v;
     moment += v * (p.position.z - vessel.floor);
   }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/random.h"
+#include "base/sphere.h"
 
 namespace talus::engine {
 namespace {
@@ -255,7 +256,7 @@ Filling Fill(std::span<const double> radii, const FillRequest& request) {
   if (radii.empty()) return filling;
   const FillRegion& region = request.region;
   double volume = 0;
-  for (const double r : radii) volume += 4.0 / 3 * std::numbers::pi * r * r * r;
+  for (const double r : radii) volume += base::SphereVolume(r);
   const double height = region.height.value_or(volume / (request.solid_fraction * region.Area()));
   filling.positions = Spread(radii, region, height, request.seed);
   Relax(radii, request, filling);

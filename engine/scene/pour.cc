@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "base/random.h"
+#include "base/sphere.h"
 #include "engine/bodies/wall_set.h"
 #include "engine/kernel/shapes.h"
 
@@ -121,7 +122,7 @@ Pour::Pour(PourPlan plan)
       slab_(kSlabDiameters * 2 * Largest(plan_.radii)) {
   double sum = 0;
   for (const double r : plan_.radii) {
-    sum += 4.0 / 3 * std::numbers::pi * r * r * r * plan_.density;
+    sum += base::SphereVolume(r) * plan_.density;
     cum_.push_back(sum);
   }
 }

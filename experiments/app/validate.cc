@@ -54,7 +54,7 @@ void PrintExperiment(const journal::ExperimentRecord& e, const campaign::Experim
 // What each test is simulated with, in the bench's units: a slip shows where it can be believed.
 void PrintRigs(const campaign::CampaignSpec& spec,
                const std::vector<campaign::ExperimentSpec>& experiments) {
-  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  const double finest = spec.coarse_graining.Finest();
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const rigs::Case rig_case = campaign::TypicalCase(spec, static_cast<int>(e), finest);
     std::cout << "  rig               "
@@ -169,7 +169,7 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';
   }
-  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  const double finest = spec.coarse_graining.Finest();
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       const rigs::Case rig_case = campaign::TypicalCase(spec, static_cast<int>(e), factor);

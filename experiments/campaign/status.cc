@@ -67,8 +67,9 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
     best_value = *value;
   }
   if (best == nullptr) return "no trial has succeeded yet\n";
-  return base::ShortNumber(best_value) + " " + std::string(reference.info().unit) + ", trial " +
-         std::to_string(best->id) + ": " + SetText(campaign.parameters, best->native) + "\n";
+  return base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
+         (reference.info().is_angle ? " off" : "") + ", trial " + std::to_string(best->id) + ": " +
+         SetText(campaign.parameters, best->native) + "\n";
 }
 
 std::string BestLines(const std::vector<journal::TrialRecord>& trials,
@@ -82,8 +83,8 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
           trials.begin(), trials.end(),
           [&](const journal::TrialRecord& t) { return kind.Is(t) && t.IsOfSearch(); });
       text += "  " + campaign.experiments[e].name + " at scale factor " +
-              base::ShortNumber(factor) + ": " + std::to_string(count) + " trials, best " +
-              BestLine(trials, campaign, references[e], kind);
+              base::ShortNumber(factor) + ": " + std::to_string(count) +
+              " trials of the search, best " + BestLine(trials, campaign, references[e], kind);
     }
   }
   return text;

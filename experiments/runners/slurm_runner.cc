@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/descriptor.h"
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
 #include "base/text/name.h"
@@ -55,17 +56,14 @@ class InheritedLock {
  public:
   explicit InheritedLock(const fs::path& file)
       : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT, 0666)) {
-    if (descriptor_ < 0) throw base::Error(file.string() + ": cannot be opened");
+    if (descriptor_.get() < 0) throw base::Error(file.string() + ": cannot be opened");
     // sbatch gives up after a minute (RunTool's cap); a file system without locks is not waited
     // for.
-    base::LockWithin(descriptor_, std::chrono::seconds(70), std::chrono::milliseconds(100));
+    base::LockWithin(descriptor_.get(), std::chrono::seconds(70), std::chrono::milliseconds(100));
   }
-  InheritedLock(const InheritedLock&) = delete;
-  InheritedLock& operator=(const InheritedLock&) = delete;
-  ~InheritedLock() { ::close(descriptor_); }
 
  private:
-  int descriptor_;
+  base::Descriptor descriptor_;
 };
 
 // A network file system may show a new file late; listing the folder makes most of them look again.

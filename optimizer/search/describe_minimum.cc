@@ -266,7 +266,11 @@ std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point) {
   return warnings;
 }
 
-std::string BoundText(const std::string& parameter, bool is_upper) {
+std::string BoundText(const std::string& parameter, bool is_upper, bool has_levels) {
+  if (has_levels) {
+    return parameter + " is the " + (is_upper ? "highest" : "lowest") +
+           " of its levels: the minimum may lie beyond";
+  }
   return parameter + " lies on its " + (is_upper ? "upper" : "lower") + " bound: widen its range";
 }
 

@@ -32,6 +32,6 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
 std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point);
 
 // The same in words: of a campaign's answer and of a plain search's.
-std::string BoundText(const std::string& parameter, bool is_upper);
+std::string BoundText(const std::string& parameter, bool is_upper, bool has_levels = false);
 
 }  // namespace talus::optimizer

@@ -1,11 +1,11 @@
 #include "experiments/analysis/card/card.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
+#include "engine/bodies/particle.h"
 #include "experiments/analysis/card/card_deck.h"
 #include "experiments/analysis/card/card_formats.h"
 #include "experiments/analysis/card/card_walls.h"
@@ -94,13 +94,15 @@ Card CardWith(const Finished& finished, const std::vector<double>& values,
               const std::filesystem::path& folder) {
   const auto& [result, spec] = finished;
   Card card;
-  for (const campaign::ExperimentSpec& experiment : campaign::ExperimentsOf(spec)) {
-    const rigs::Case rig_case =
-        campaign::CaseOf(spec,
-                         {.values = values,
-                          .scale_factor = result.conditions.scale_factor,
-                          .experiment = static_cast<int>(card.tests.size())},
-                         std::nullopt);
+  const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const campaign::ExperimentSpec& experiment = experiments[i];
+    if (experiment.name == spec.hold_out) continue;  // the set does not come from it
+    const rigs::Case rig_case = campaign::CaseOf(spec,
+                                                 {.values = values,
+                                                  .scale_factor = result.conditions.scale_factor,
+                                                  .experiment = static_cast<int>(i)},
+                                                 std::nullopt);
     if (card.tests.empty()) {
       card = PowderCard(rig_case);
       if (spec.engine.kind == campaign::EngineKind::kCommand) {
@@ -201,7 +203,7 @@ TypicalContact TypicalContactOf(const Card& card) {
   constexpr double kGrainWeights = 10;
   const engine::Material powder = ActingOn(card, 0, 0);
   const double radius = card.mean_diameter / 2;
-  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3) * powder.density;
+  const double mass = engine::SphereMass(powder, radius);
   TypicalContact contact{.pair = engine::MakePairConstants(powder, powder, card.models),
                          .r_star = radius / 2,
                          .m_star = mass / 2};

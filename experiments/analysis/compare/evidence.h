@@ -22,7 +22,6 @@
 namespace talus::analysis {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double kSidesOf90 = 1.645;  // sd on each side of a normal distribution's 90 %
 
 struct ParameterInfo {
   optimizer::Parameter range;  // name, low, high, scale

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/student_factor.h"
 #include "base/text/plain_number.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/record/stored.h"
@@ -119,8 +120,8 @@ void AddUncertainty(const campaign::JointView& view, const Sole& sole,
   for (const double log : logs) mean += log / kGroups;
   for (const double log : logs) squares += (log - mean) * (log - mean);
   const double sd = std::sqrt((kGroups - 1.0) / kGroups * squares);
-  knowledge.region_low = knowledge.region * std::exp(-kSidesOf90 * sd);
-  knowledge.region_high = std::min(1.0, knowledge.region * std::exp(kSidesOf90 * sd));
+  knowledge.region_low = knowledge.region * std::exp(-base::kNormal90 * sd);
+  knowledge.region_high = std::min(1.0, knowledge.region * std::exp(base::kNormal90 * sd));
 }
 
 ObjectiveKnowledge KnowledgeOfOne(const campaign::JointView& view, const Sole& sole,

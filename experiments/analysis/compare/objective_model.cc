@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "base/student_factor.h"
 #include "optimizer/designs/design.h"
 
 namespace talus::analysis {
@@ -79,10 +80,10 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
     // Not clamped: where many points fall below 0, the least of them is still one.
     p.objective = info_.Value(all.mean(i), reference_);
-    const double least = info_.Value(p.quantity - kSidesOf90 * p.sd, reference_);
-    const double most = info_.Value(p.quantity + kSidesOf90 * p.sd, reference_);
+    const double least = info_.Value(p.quantity - base::kNormal90 * p.sd, reference_);
+    const double most = info_.Value(p.quantity + base::kNormal90 * p.sd, reference_);
     const bool spans_reference =
-        info_.is_distance && std::abs(p.quantity - reference_) < kSidesOf90 * p.sd;
+        info_.is_distance && std::abs(p.quantity - reference_) < base::kNormal90 * p.sd;
     p.low = spans_reference ? 0 : std::max(0.0, std::min(least, most));
     p.high = std::max(least, most);
   }

@@ -38,15 +38,6 @@ std::vector<Column> Columns(const Evidence& evidence, const std::vector<ShownTri
   return columns;
 }
 
-bool IsRecommended(const Evidence& evidence, const TrialEvidence& trial) {
-  if (!evidence.answer) return false;
-  for (std::size_t k = 0; k < trial.values.size(); ++k) {
-    const double value = evidence.answer->parameters[k].value;
-    if (std::abs(trial.values[k] - value) > 1e-9 * std::abs(value)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 const TrialEvidence* ConfirmingTrial(const Evidence& evidence) {
@@ -54,7 +45,7 @@ const TrialEvidence* ConfirmingTrial(const Evidence& evidence) {
   for (const TrialEvidence& trial : evidence.trials) {
     if (trial.purpose != "confirm" || trial.state != journal::TrialStatus::kOk) continue;
     if (first == nullptr) first = &trial;
-    if (IsRecommended(evidence, trial)) return &trial;
+    if (evidence.answer && campaign::IsRecommended(*evidence.answer, trial.values)) return &trial;
   }
   return first;
 }

@@ -30,17 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether it is of the set that the campaign recommends now; it may have recommended others before.
-bool IsOfAnswer(const journal::TrialRecord& trial, const campaign::Answer& answer) {
-  constexpr double kSame = 1e-9;  // of a range: a value that was written as decimals
-  if (trial.unit.size() != answer.parameters.size()) return false;
-  for (std::size_t i = 0; i < trial.unit.size(); ++i) {
-    const campaign::ResultParameter& p = answer.parameters[i];
-    if (std::abs(p.Range().ToUnit(p.value) - trial.unit[i]) > kSame) return false;
-  }
-  return true;
-}
-
 // The first trial that confirms the recommended set, else the best of the first experiment.
 std::int64_t TrialToShow(const fs::path& campaign) {
   const std::optional<campaign::Answer> answer = campaign::StandingAnswer(campaign);
@@ -53,7 +42,7 @@ std::int64_t TrialToShow(const fs::path& campaign) {
   for (const journal::TrialRecord& trial : journal.Trials()) {
     if (trial.status != journal::TrialStatus::kOk || trial.experiment != 0) continue;
     const bool confirms = trial.kind == journal::TrialKind::kConfirm;
-    if (confirms && answer && IsOfAnswer(trial, *answer)) return trial.id;
+    if (confirms && answer && IsRecommended(*answer, trial.native)) return trial.id;
     if (trial.scale_factor != spec.coarse_graining.scale_factor) continue;
     const campaign::Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
     const std::optional<double> value = reference.Value(trial);

@@ -54,6 +54,7 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
              .parts = campaign::MakeParts(view.spec, folder),
              .goal = std::move(goal)});
   table.simulate_first = SimulateFirst(view.folder.root);
+  table.has_simulated = request.simulate;
   if (base::MayWriteInto(folder)) {  // of somebody else's campaign the table is shown only
     std::filesystem::create_directories(folder);
     base::WriteFileAtomically(folder / "next.json", NextJson(table));

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/student_factor.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/known.h"
@@ -16,6 +17,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::analysis {
@@ -58,23 +60,29 @@ PredictedCase ReadProcess(const campaign::JointView& plan, base::Problems proble
   return process;
 }
 
+// "tapped density of taps, in kg/m³,"
+std::string GoalName(const campaign::GoalSpec& goal) {
+  const std::string unit = rigs::PrettyUnit(rigs::UnitOfObservable(goal.metric()));
+  return rigs::SpokenName(goal.metric()) + " of " + goal.file.stem().string() +
+         (unit.empty() ? "" : ", in " + unit + ",");
+}
+
 // Widths, and whether they are a reason to end the search.
 void Judge(const campaign::CampaignSpec& spec, const NumberSurrogate& surrogate,
            optimizer::PosteriorStrategy& strategy, Ground& ground, GoalState& state) {
   const surrogate::Predictions at = surrogate.At(ground.draws);
   ground.goal = at.mean;
   state.parameters_half_width = optimizer::HalfWidth90(at.mean);
-  state.surrogate_half_width = kNinety * kOverconfidence * std::sqrt(at.variance.mean());
+  state.surrogate_half_width = base::kNormal90 * kOverconfidence * std::sqrt(at.variance.mean());
   state.half_width = std::hypot(state.parameters_half_width, state.surrogate_half_width);
   const double least =
       LearnWithoutSurrogate(ground, KnownExperiments(ground, strategy.Model())).goal_half_width;
   state.least_half_width = std::hypot(least, state.surrogate_half_width);
   const double asked = spec.goal->half_width_in_results();
-  optimizer::StopReason reason{
-      .value = state.half_width,
-      .limit = asked,
-      .scale = state.least_half_width,
-      .name = spec.goal->metric() + " of " + spec.goal->file.stem().string()};
+  optimizer::StopReason reason{.value = state.half_width,
+                               .limit = asked,
+                               .scale = state.least_half_width,
+                               .name = GoalName(*spec.goal)};
   const bool is_open = state.surrogate_half_width <= kClearly * state.parameters_half_width &&
                        least >= kHardlyLess * state.parameters_half_width;
   if (state.half_width <= asked) {

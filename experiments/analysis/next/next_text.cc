@@ -132,8 +132,8 @@ std::string CandidateText(const NextTable& table, const NextCandidate& c) {
          " bits)\n" + (c.apart.empty() ? "" : ApartText(c));
 }
 
-// "the cheapest, rough plate, takes 32 s of core time": why nothing was simulated. "" where no test
-// can be.
+// "the cheapest, rough plate, takes about 32 s of core time (`talus next DIR --simulate --budget
+// "60 s"`": why tests are not simulated, without its closing bracket. "" where no test can be.
 std::string CheapestText(const NextTable& table) {
   const NextCandidate* cheapest = nullptr;
   for (const NextCandidate& c : table.candidates) {
@@ -143,10 +143,19 @@ std::string CheapestText(const NextTable& table) {
   if (cheapest == nullptr) return "";
   // A whole half minute more, so that an estimate that is a little short still pays for it.
   const double budget = 30 * std::ceil(1.2 * cheapest->core_time_to_judge / 30);
-  return "  further tests     none could be simulated in that time: the cheapest, " +
-         cheapest->name + ", takes about " + trials::DurationText(cheapest->core_time_to_judge) +
-         " of core time (`talus next DIR --simulate --budget \"" + ShortNumber(budget) +
-         " s\"`, or a larger next.share in the spec)\n";
+  return "the cheapest, " + cheapest->name + ", takes about " +
+         trials::DurationText(cheapest->core_time_to_judge) +
+         " of core time (`talus next DIR --simulate --budget \"" + ShortNumber(budget) + " s\"`";
+}
+
+// Of what stands as "?".
+std::string UnknownText(const NextTable& table) {
+  const std::string cheapest = table.has_simulated ? CheapestText(table) : "";
+  if (cheapest.empty()) {
+    return "?: `talus next DIR --simulate` runs the few simulations that tell what a test would "
+           "teach, `--budget` says in how much core time\n";
+  }
+  return "?: the core time was too short for it; " + cheapest + ")\n";
 }
 
 }  // namespace
@@ -183,12 +192,7 @@ std::string NextText(const NextTable& table) {
     text += CandidateText(table, c);
     unknown |= NeedsSimulations(c);
   }
-  if (unknown) {
-    text +=
-        "?: `talus next DIR --simulate` runs the few simulations that tell what a test would "
-        "teach, `--budget` says in how much core time\n";
-  }
-  return text;
+  return text + (unknown ? UnknownText(table) : "");
 }
 
 std::string NextSummary(const NextTable& table) {
@@ -200,7 +204,12 @@ std::string NextSummary(const NextTable& table) {
     text += (shown++ == 0 ? "  further tests     " : "                    ") + c.name +
             DependsText(c) + ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
   }
-  if (shown == 0) return CheapestText(table);
+  if (shown == 0) {
+    const std::string cheapest = CheapestText(table);
+    if (cheapest.empty()) return "";
+    return "  further tests     none could be simulated in that time: " + cheapest +
+           ", or a larger next.share in the spec)\n";
+  }
   return text + "                    (width of the joint 90 % ranges now: " +
          WidthsText(table, table.width) + "; `talus next DIR` lists all)\n";
 }

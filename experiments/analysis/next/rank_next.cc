@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/sample.h"
+#include "base/student_factor.h"
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
@@ -155,12 +156,11 @@ void AddNumbers(const Ground& ground, const optimizer::Posterior& posterior,
 
 // Each parameter that an instrument tells by itself.
 void AddDirect(const Ground& ground, std::vector<NextCandidate>& all) {
-  constexpr double kWidth = 0.05;           // of the searched range, that holds 90 %
-  constexpr double kNormal = 2 * 1.644854;  // … in standard deviations
+  constexpr double kWidth = 0.05;  // of the searched range, that holds 90 %
   const std::vector<journal::ParameterRecord>& parameters = ground.view.record.parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (!campaign::CanBeMeasuredDirectly(parameters[k].name)) continue;
-    const double sd = kWidth / kNormal;  // a measurement has no temper
+    const double sd = kWidth / (2 * base::kNormal90);  // a measurement has no temper
     all.push_back({.kind = NextKind::kDirect,
                    .name = parameters[k].name + " by itself",
                    .what = "measure it on a tilted plate to ± " + base::ShortNumber(50 * kWidth) +

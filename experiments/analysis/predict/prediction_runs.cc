@@ -49,7 +49,7 @@ MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
   }
   const double run_sd = is_mean || std::isnan(spread.run_sd()) ? 0 : spread.run_sd();
   const double sd = std::hypot(run_sd, MeanSd(predicted, spread, num_seeds), error);
-  there.nearest_is_inside = nearest <= kNinety * sd;
+  there.nearest_is_inside = nearest <= base::kNormal90 * sd;
   return there;
 }
 

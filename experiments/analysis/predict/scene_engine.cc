@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/sphere.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -58,7 +58,7 @@ Volumes VolumesOf(const engine::SceneSpec& scene, int powder, double density) {
     return engine::MaterialIndex(scene, grains.material) == powder;
   };
   for (const engine::SphereSpec& s : scene.spheres) {
-    if (is_powder(s)) volumes[s.diameter] += std::numbers::pi / 6 * std::pow(s.diameter, 3);
+    if (is_powder(s)) volumes[s.diameter] += base::SphereVolume(s.diameter / 2);
   }
   const auto add = [&](const auto& grains) {
     if (!is_powder(grains)) return;

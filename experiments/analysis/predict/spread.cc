@@ -14,7 +14,7 @@ namespace {
 
 // t quantile over normal quantile at 5 %; 1 for ν → ∞.
 double StudentOverNormal(double freedom) {
-  return base::StudentFactor(std::max(freedom, 1.0), optimizer::kRegionLevel) / kNinety;
+  return base::StudentFactor(std::max(freedom, 1.0), optimizer::kRegionLevel) / base::kNormal90;
 }
 
 // What differs by rounding alone does not differ.
@@ -109,8 +109,8 @@ Range Spread::Ninety(double error_sd) const {
   const auto within = [&](double quantile, double beyond) {
     return std::clamp(quantile, bounds_.low + beyond, bounds_.high + beyond);
   };
-  return {.low = within(Quantile(0.05, error_sd), -kNinety * error_sd),
-          .high = within(Quantile(0.95, error_sd), kNinety * error_sd)};
+  return {.low = within(Quantile(0.05, error_sd), -base::kNormal90 * error_sd),
+          .high = within(Quantile(0.95, error_sd), base::kNormal90 * error_sd)};
 }
 
 double Spread::Quantile(double probability, double error_sd) const {

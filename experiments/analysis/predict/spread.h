@@ -60,8 +60,8 @@ class Spread {
   // The same without the scatter of single runs: what means of many lie in.
   Spread OfMeans() const;
   // 90 % of single runs that are measured with an independent error of this standard deviation. A
-  // run within the bounds, measured, is at most kNinety errors beyond them in 95 %. NaN by one run,
-  // which tells no width.
+  // run within the bounds, measured, is at most kNormal90 errors beyond them in 95 %. NaN by one
+  // run, which tells no width.
   Range Ninety(double error_sd = 0) const;
 
  private:
@@ -79,8 +79,5 @@ class Spread {
   std::vector<double> error_;   // of m_i, in τ_i
   bool is_one_run_ = false;
 };
-
-// Standard deviations on either side of the mean that hold 90 % of a normal.
-inline constexpr double kNinety = 1.6448536269514722;
 
 }  // namespace talus::analysis

@@ -123,7 +123,7 @@ std::string AlarmText(const Alarm& a) {
              "settle it (" +
              ResumeCommand(kMoreSimulations) + ")";
     case AlarmKind::kFewSimulations:
-      return "an experiment has only " + value +
+      return experiment + " has only " + value +
              " simulations at the smallest scale factor: so few are trusted less, and the joint "
              "region is wider for it; more would narrow it (" +
              ResumeCommand(kMoreSimulations) + ")";

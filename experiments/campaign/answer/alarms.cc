@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
@@ -97,7 +98,7 @@ const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>
 // At the finest scale factor, which decides: coarser ones only guide the search.
 void AddGrainWarnings(const CampaignSpec& spec, Answer& answer) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
-  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  const double finest = spec.coarse_graining.Finest();
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), finest);
     if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
@@ -118,15 +119,21 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
   }
 }
 
+// Of the set's farthest measurement, in what is still a fit; NaN with nothing to judge by.
+double FarthestOff(const Answer& answer, const ResultCandidate& candidate) {
+  const std::vector<MeasurementFit> distances = DistancesOf(answer, candidate);
+  return distances.empty() ? kNotKnown : distances.front().off;
+}
+
 // Another set that was simulated again and comes clearly nearer.
 const ResultCandidate* NearerSet(const Answer& answer) {
   constexpr double kClearly = 0.7;  // of the recommended set's distance
   const auto& all = answer.confirmed;
   if (all.empty()) return nullptr;
   const ResultCandidate* nearest = nullptr;
-  double least = kClearly * FarthestMiss(answer, all.front()).off;
+  double least = kClearly * FarthestOff(answer, all.front());
   for (const ResultCandidate& candidate : all) {
-    const double miss = FarthestMiss(answer, candidate).off;
+    const double miss = FarthestOff(answer, candidate);
     if (!(miss < least)) continue;
     nearest = &candidate;
     least = miss;
@@ -160,21 +167,33 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
   }
   if (!answer.posterior && !HasRanges(answer)) return "there are too few simulations for a model";
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
+  if (answer.posterior && !answer.posterior->unlearnt_scale_factors.empty()) {
+    return "too few of its trials are at scale factor " +
+           base::ShortNumber(answer.posterior->unlearnt_scale_factors.front()) +
+           " to tell its bias";
+  }
   if (answer.posterior && IsProvisional(answer.posterior->surrogate_narrowing)) {
     return "its region is still more the surrogate's than the measurements'";
   }
   return std::nullopt;
 }
 
-void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
-  alarms.insert(alarms.end(), more.begin(), more.end());
+// The regions of several experiments are small, and the errors of their surrogates weigh more. A
+// search that ended since more simulations would hardly narrow the ranges has counted that in.
+bool HasFewSimulations(const Answer& answer) {
+  const ResultPosterior& p = *answer.posterior;
+  const bool is_done = answer.stop.rule && answer.stop.rule->rule == optimizer::StopRule::kShare;
+  return p.experiments.size() > 1 && !p.is_extrapolated && p.unlearnt_scale_factors.empty() &&
+         p.fewest_at_finest < kEnoughAtFinest && !is_done;
 }
 
-bool IsOf(const journal::TrialRecord& trial, const std::vector<ResultParameter>& set) {
-  constexpr double kSame = 1e-9;
-  return std::ranges::equal(trial.native, set, [](double value, const ResultParameter& p) {
-    return std::abs(value - p.value) <= kSame * std::abs(p.value);
-  });
+// The experiment with the fewest simulations at the smallest scale factor.
+std::string MostCautious(const ResultPosterior& posterior) {
+  return std::ranges::max_element(posterior.experiments, {}, &ResultStanding::caution)->name;
+}
+
+void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
+  alarms.insert(alarms.end(), more.begin(), more.end());
 }
 
 // Experiments of which no simulation of the recommended set with fresh seeds succeeded.
@@ -186,7 +205,8 @@ std::vector<Alarm> FailureAlarms(const std::vector<journal::TrialRecord>& trials
     std::string last;
     for (const journal::TrialRecord& trial : trials) {
       const bool is_it = trial.kind == journal::TrialKind::kConfirm &&
-                         trial.experiment == static_cast<int>(e) && IsOf(trial, answer.parameters);
+                         trial.experiment == static_cast<int>(e) &&
+                         IsRecommended(answer, trial.native);
       if (!is_it) continue;
       if (trial.status != journal::TrialStatus::kFailed) {
         ++num_other;
@@ -312,10 +332,10 @@ std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
   for (const double level : p.unlearnt_scale_factors) {
     alarms.push_back({.kind = AlarmKind::kUnlearntScaleFactor, .scale_factor = level});
   }
-  // The regions of several experiments are small, and the errors of their surrogates weigh more.
-  if (p.experiments.size() > 1 && !p.is_extrapolated && p.unlearnt_scale_factors.empty() &&
-      p.fewest_at_finest < kEnoughAtFinest) {
-    alarms.push_back({.kind = AlarmKind::kFewSimulations, .value = 1.0 * p.fewest_at_finest});
+  if (HasFewSimulations(answer)) {
+    alarms.push_back({.kind = AlarmKind::kFewSimulations,
+                      .experiment = MostCautious(p),
+                      .value = 1.0 * p.fewest_at_finest});
   }
   return alarms;
 }

@@ -46,6 +46,13 @@ Eigen::VectorXd RecommendedPoint(const Answer& answer) {
   return UnitPoint(answer, values);
 }
 
+bool IsRecommended(const Answer& answer, const std::vector<double>& values) {
+  constexpr double kSame = 1e-9;
+  if (values.size() != answer.parameters.size()) return false;
+  const Eigen::VectorXd off = UnitPoint(answer, values) - RecommendedPoint(answer);
+  return off.lpNorm<Eigen::Infinity>() <= kSame;
+}
+
 bool MinimisesSad(const Answer& answer) {
   return answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
 }

@@ -169,6 +169,10 @@ const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experi
 Eigen::VectorXd UnitPoint(const Answer& answer, const std::vector<double>& values);
 Eigen::VectorXd RecommendedPoint(const Answer& answer);
 
+// Whether it is the recommended set, to 1e-9 of a range: it may have been written as decimals. The
+// campaign may have recommended others before, of fewer parameters.
+bool IsRecommended(const Answer& answer, const std::vector<double>& values);
+
 // Whether its objective is the SAD.
 bool MinimisesSad(const Answer& answer);
 

@@ -52,10 +52,16 @@ std::string ParameterLines(const Answer& result) {
   return text;
 }
 
-// "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images.
+// Of an objective that is the distance from the experiment's angle, not an angle.
+std::string DistanceUnit(const Answer& answer) {
+  return " " + answer.objective_unit + (MinimisesSad(answer) ? "" : " off");
+}
+
+// "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images;
+// of an angle "predicted 1.2 ° off ± 0.4, confirmed 1.5 ° off".
 std::string ObjectiveText(const Answer& answer, const ResultExperiment& experiment,
                           const ResultConfirmed* confirmed) {
-  const std::string unit = " " + answer.objective_unit;
+  const std::string unit = DistanceUnit(answer);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   std::string text;
   if (standing != nullptr && std::isfinite(standing->predicted)) {
@@ -143,6 +149,15 @@ std::string ValuesText(const Answer& answer, const std::vector<double>& values) 
   });
 }
 
+// The farthest first.
+std::string MissesText(const Answer& answer, const ResultCandidate& candidate) {
+  std::string text;
+  for (const MeasurementFit& fit : DistancesOf(answer, candidate)) {
+    if (fit.off > 1) text += (text.empty() ? "" : ", ") + SpokenOf(fit);
+  }
+  return text;
+}
+
 std::string ConfirmedLines(const Answer& answer) {
   std::string text;
   for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
@@ -154,10 +169,10 @@ std::string ConfirmedLines(const Answer& answer) {
     for (const ResultConfirmed& e : c.experiments) {
       const double value = ComparableOf(answer, e);
       if (i > 0 && std::isfinite(value)) {
-        text += "; " + e.name + " " + base::ShortNumber(value) + " " + answer.objective_unit;
+        text += "; " + e.name + " " + base::ShortNumber(value) + DistanceUnit(answer);
       }
     }
-    if (i > 0 && Misses(answer, c)) text += "; misses " + SpokenOf(FarthestMiss(answer, c));
+    if (i > 0 && Misses(answer, c)) text += "; misses " + MissesText(answer, c);
     text += "\n";
   }
   return text;

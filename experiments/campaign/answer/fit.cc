@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/student_factor.h"
@@ -86,6 +87,14 @@ Meets NumberMeets(const ResultNumber& measured, double off, double simulated_err
   return off > limit ? Meets::kNo : Meets::kUnknown;
 }
 
+// In what is still a fit; NaN where nothing judges it.
+double DistanceOfImage(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
+  if (confirmed.over_floor) return *confirmed.over_floor / kCloseRuns;
+  const auto limit = LimitWithoutRuns(experiment, confirmed);
+  if (!limit || !confirmed.profile_sad_mm2) return kNotKnown;
+  return SadWithoutScatter(confirmed) / *limit;
+}
+
 bool IsImplausible(const Answer& answer, const std::string& experiment) {
   const ResultStanding* standing = StandingOf(answer, experiment);
   return standing != nullptr && standing->implausibility > kImplausible;
@@ -158,41 +167,18 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   return fit;
 }
 
-bool Misses(const Answer& answer, const ResultCandidate& candidate) {
-  if (candidate.scale_factor != answer.conditions.scale_factor) return false;
+std::vector<MeasurementFit> DistancesOf(const Answer& answer, const ResultCandidate& candidate) {
+  std::vector<MeasurementFit> distances;
   for (const ResultConfirmed& confirmed : candidate.experiments) {
+    const auto add = [&](const std::string& number, double off) {
+      if (std::isnan(off)) return;
+      distances.push_back({.experiment = confirmed.name, .number = number, .off = off});
+    };
     const auto experiment =
         std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
     // An experiment without a standing is held out.
     if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
-    const bool is_far = confirmed.over_floor
-                            ? *confirmed.over_floor > kCloseRuns
-                            : ImageMeets(answer, *experiment, confirmed) == Meets::kNo;
-    if (is_far) return true;
-    for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      if (confirmed.scalars.at(i).undefined) return true;
-      if (OffBy(experiment->numbers[i], confirmed.scalars[i]) > kCloseNumber) return true;
-    }
-  }
-  return false;
-}
-
-MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
-  MeasurementFit farthest;
-  for (const ResultConfirmed& confirmed : candidate.experiments) {
-    const auto add = [&](const std::string& number, double off) {
-      if (!std::isnan(off) && !(off <= farthest.off))
-        farthest = {.experiment = confirmed.name, .number = number, .off = off};
-    };
-    const auto experiment =
-        std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
-    if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
-    if (confirmed.over_floor) {
-      add("", *confirmed.over_floor / kCloseRuns);
-    } else if (const auto limit = LimitWithoutRuns(*experiment, confirmed);
-               limit && confirmed.profile_sad_mm2) {
-      add("", SadWithoutScatter(confirmed) / *limit);
-    }
+    add("", DistanceOfImage(*experiment, confirmed));
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
       const ResultNumber& measured = experiment->numbers[i];
       add(measured.name, confirmed.scalars.at(i).undefined
@@ -200,7 +186,14 @@ MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candida
                              : OffBy(measured, confirmed.scalars[i]) / kCloseNumber);
     }
   }
-  return farthest;
+  std::ranges::stable_sort(distances, std::ranges::greater{}, &MeasurementFit::off);
+  return distances;
+}
+
+bool Misses(const Answer& answer, const ResultCandidate& candidate) {
+  if (candidate.scale_factor != answer.conditions.scale_factor) return false;
+  const std::vector<MeasurementFit> distances = DistancesOf(answer, candidate);
+  return !distances.empty() && distances.front().off > 1;
 }
 
 std::string SpokenOf(const MeasurementFit& fit) {

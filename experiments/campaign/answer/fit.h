@@ -63,13 +63,13 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
 // Every measurement, in the campaign's order.
 std::vector<MeasurementFit> FitsOf(const Answer& answer);
 
+// Every measurement that a set which was simulated again can be judged by, the farthest first:
+// `off` in what is still a fit, so that it misses above 1; infinite where one does not exist there.
+std::vector<MeasurementFit> DistancesOf(const Answer& answer, const ResultCandidate& candidate);
+
 // Whether a set that was simulated again is not within what fits: it is not shown beside those that
 // do, though chance may be to blame.
 bool Misses(const Answer& answer, const ResultCandidate& candidate);
-
-// Its farthest measurement, how far `off` in what is still a fit: above 1 it misses; infinite where
-// one does not exist there. NaN with nothing to judge by.
-MeasurementFit FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
 
 // "the shape of "heap"", "mass fallen of "wide plate"".
 std::string SpokenOf(const MeasurementFit& fit);

@@ -34,33 +34,21 @@ std::filesystem::path CampaignFolder::experiment(std::size_t index) const {
 
 CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / trials::kCampaignLock).string();
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) base::ThrowUnwritten(path, errno);
-  const base::LockEnd end = base::LockWithin(file_, kPatience, kPause);
-  if (end == base::LockEnd::kNone) {
-    ::close(file_);
-    throw base::Error(path + base::kNoLocks);
-  }
+  file_ = base::Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (file_.get() < 0) base::ThrowUnwritten(path, errno);
+  const base::LockEnd end = base::LockWithin(file_.get(), kPatience, kPause);
+  if (end == base::LockEnd::kNone) throw base::Error(path + base::kNoLocks);
   if (end == base::LockEnd::kHeld) {
     char owner[32] = "";
-    if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
-    ::close(file_);
+    if (::read(file_.get(), owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
     throw base::Error(root.string() + ": another process (number " + owner +
                       ") works on this campaign; end it first, or wait");
   }
   const std::string owner = std::to_string(::getpid());
-  if (::ftruncate(file_, 0) != 0 ||
-      ::pwrite(file_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
-    const int code = errno;
-    ::close(file_);
-    base::ThrowUnwritten(path, code);
+  if (::ftruncate(file_.get(), 0) != 0 ||
+      ::pwrite(file_.get(), owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
+    base::ThrowUnwritten(path, errno);
   }
-}
-
-CampaignLock::CampaignLock(CampaignLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-
-CampaignLock::~CampaignLock() {
-  if (file_ >= 0) ::close(file_);
 }
 
 bool IsWorkedOn(const std::filesystem::path& root) {

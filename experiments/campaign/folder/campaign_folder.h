@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "base/files/descriptor.h"
+
 namespace talus::campaign {
 
 struct CampaignFolder {
@@ -26,11 +28,9 @@ class CampaignLock {
  public:
   // Throws base::Error that names the process that has it.
   explicit CampaignLock(const std::filesystem::path& root);
-  CampaignLock(CampaignLock&& other) noexcept;
-  ~CampaignLock();
 
  private:
-  int file_;
+  base::Descriptor file_;
 };
 
 // Whether some process holds the lock now.

@@ -6,9 +6,9 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
-#include "base/text/number_text.h"
 #include "experiments/campaign/folder/record_file.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -64,13 +64,13 @@ std::string GoalText(const CampaignSpec& spec) {
 }
 
 std::string TextOf(const GoalState& state, const GoalSpec& asked) {
-  return asked.metric() + " of " + asked.file.stem().string() +
-         (std::isfinite(state.half_width)
-              ? " known to ± " + base::ShortNumber(state.half_width, 2) + " (90 %)"
-              : " not known") +
+  const auto shown = [&](double width) { return rigs::ShownNumber(asked.metric(), width, 2); };
+  return rigs::SpokenName(asked.metric()) + " of " + asked.file.stem().string() +
+         (std::isfinite(state.half_width) ? " known to ± " + shown(state.half_width) + " (90 %)"
+                                          : " not known") +
          " after " + std::to_string(state.after) + " trials, asked for ± " +
-         base::ShortNumber(asked.half_width_in_results(), 2) + "; " +
-         base::Counted(state.num_runs, "run") + " of it";
+         shown(asked.half_width_in_results()) + "; " + base::Counted(state.num_runs, "run") +
+         " of it";
 }
 
 std::int64_t NextLook(std::int64_t last) { return last == 0 ? kFirstLook : last + last / 2; }

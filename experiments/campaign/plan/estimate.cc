@@ -147,7 +147,7 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
   // Ten heaps show their own scatter to a quarter: 1/√(2 · 9).
   constexpr double kEnoughFineTrials = 10;
   if (!spec.budget.core_time || spec.coarse_graining.Levels().size() < 2) return std::nullopt;
-  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  const double finest = spec.coarse_graining.Finest();
   double each = 0;  // [s] of one trial of every experiment at the smallest scale factor
   for (const TrialEstimate& trial : e.trials) {
     if (trial.scale_factor == finest) each += trial.core_seconds;

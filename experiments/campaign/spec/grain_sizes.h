@@ -35,6 +35,7 @@ struct GrainSizes {
   std::vector<double> Levels() const;  // the scale factors that are simulated, the coarsest first
   double Target() const;               // that the answer is for
   // Whether trials of several sizes are to be put together, or a size nobody simulates be told.
+  double Finest() const { return Levels().back(); }  // of those
   bool AreSeveral() const { return Levels().size() > 1 || Target() < Levels().back(); }
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text/number_text.h"
+#include "engine/bodies/particle.h"
 #include "experiments/campaign/spec/agreeing_numbers.h"
 #include "experiments/campaign/spec/plausible_quantity.h"
 #include "experiments/campaign/spec/plausible_stresses.h"
@@ -120,7 +121,7 @@ void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
 void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
                          base::Problems& problems) {
   const double diameter = GrainDiameter(powder.sizes).second;
-  const double one = powder.material.density * std::numbers::pi / 6 * std::pow(diameter, 3);
+  const double one = engine::SphereMass(powder.material, diameter / 2);
   const double number = powder.mass / one;
   if (!(number < kFewestGrains) || !(powder.mass > 0)) return;
   problems.Add(path, "of " + base::ShortNumber(powder.mass) + " kg is " +

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/problems.h"
+#include "base/sphere.h"
 #include "base/text/key_text.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
@@ -306,7 +306,7 @@ std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths)
     }
   }
   const double density = base::ParseQuantity(answers.density, base::Dimension::kDensity);
-  const double one = density * std::numbers::pi / 6 * std::pow(lengths.grain, 3);
+  const double one = density * base::SphereVolume(lengths.grain / 2);
   return base::ShortNumber(Rounded(std::cbrt(mass / one / kGrains)));
 }
 

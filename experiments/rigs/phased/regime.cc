@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
+
+#include "base/sphere.h"
 
 namespace talus::rigs {
 namespace {
@@ -120,7 +121,7 @@ void LookAtFlow(const FlowingGrains& grains, RegimeMemory& memory) {
     if (cell.contacts < static_cast<double>(cell.grains.size())) continue;
     double volume = 0;  // [m³]
     for (const engine::Particle* grain : cell.grains) {
-      volume += 4.0 / 3 * std::numbers::pi * std::pow(grain->radius, 3) / kSolidFraction;
+      volume += base::SphereVolume(grain->radius) / kSolidFraction;
     }
     const double pressure = cell.virial / (3 * volume);
     if (!(pressure > 0)) continue;

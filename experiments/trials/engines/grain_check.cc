@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/sphere.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 
@@ -14,11 +14,9 @@ namespace {
 constexpr double kSizeFactor = 1.5;  // a median of few grains of a wide distribution scatters
 constexpr double kMassFactor = 1.2;
 
-double Volume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
-
 double TotalVolume(std::span<const base::Sphere> spheres) {
   double total = 0;
-  for (const base::Sphere& sphere : spheres) total += Volume(sphere.radius);
+  for (const base::Sphere& sphere : spheres) total += base::SphereVolume(sphere.radius);
   return total;
 }
 
@@ -28,7 +26,7 @@ double MedianDiameter(std::span<const base::Sphere> spheres) {
   std::ranges::sort(radii);
   double left = 0.5 * TotalVolume(spheres);
   for (const double radius : radii) {
-    left -= Volume(radius);
+    left -= base::SphereVolume(radius);
     if (left <= 0) return 2 * radius;
   }
   return radii.empty() ? 0 : 2 * radii.back();

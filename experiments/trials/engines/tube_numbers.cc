@@ -1,9 +1,9 @@
 #include "experiments/trials/engines/tube_numbers.h"
 
 #include <algorithm>
-#include <numbers>
 #include <string>
 
+#include "base/sphere.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/phased/repose.h"
 
@@ -33,7 +33,7 @@ std::vector<journal::MetricRecord> TubeNumbersOf(const rigs::Case& rig_case, dou
                                                  const std::vector<base::Sphere>& heap) {
   double volume = 0, height = 0;
   for (const base::Sphere& s : heap) {
-    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
+    volume += base::SphereVolume(s.radius);
     height = std::max(height, s.position.z + s.radius);
   }
   const double on_plate = volume * rig_case.powder.material.density;

@@ -31,10 +31,10 @@ constexpr const char* kImageChecksum = "image_checksum_xxh3";
 
 std::string ChecksumOf(const std::string& bytes) { return base::Hex(base::Checksum(bytes)); }
 
-int Open(const std::filesystem::path& path, int flags) {
+base::Descriptor Open(const std::filesystem::path& path, int flags) {
   const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
   if (file < 0) base::ThrowUnwritten(path, errno);
-  return file;
+  return base::Descriptor(file);
 }
 
 // What must stay the same for the recorded evaluations to count.
@@ -69,9 +69,8 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
   lock_ = Open(root_ / "optimize.lock", O_RDWR);
   constexpr std::chrono::milliseconds kPatience{2000};
   constexpr std::chrono::milliseconds kPause{50};
-  const base::LockEnd end = base::LockWithin(lock_, kPatience, kPause);
+  const base::LockEnd end = base::LockWithin(lock_.get(), kPatience, kPause);
   if (end != base::LockEnd::kTaken) {
-    ::close(lock_);
     throw base::Error(root_.string() +
                       (end == base::LockEnd::kNone
                            ? base::kNoLocks
@@ -81,11 +80,6 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
   Load();
   std::filesystem::remove(root_ / kRecommendation);  // of a search that had ended, and goes on
   log_ = Open(root_ / kLog, O_WRONLY | O_APPEND);
-}
-
-OptimizeFolder::~OptimizeFolder() {
-  if (log_ >= 0) ::close(log_);
-  ::close(lock_);
 }
 
 void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
@@ -191,12 +185,12 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
   }
   const std::string text = base::WithChecksum(base::JsonText(line) + "\n");
   const std::lock_guard guard(writing_);
-  const off_t end = ::lseek(log_, 0, SEEK_END);
-  const ssize_t written = ::write(log_, text.data(), text.size());
+  const off_t end = ::lseek(log_.get(), 0, SEEK_END);
+  const ssize_t written = ::write(log_.get(), text.data(), text.size());
   if (written == static_cast<ssize_t>(text.size())) return;
   const int error = written < 0 ? errno : ENOSPC;  // the disk has filled up within the line
   // No line of another evaluation may follow half of this one.
-  [[maybe_unused]] const int shortened = ::ftruncate(log_, end);
+  [[maybe_unused]] const int shortened = ::ftruncate(log_.get(), end);
   base::ThrowUnwritten(root_ / kLog, error);
 }
 

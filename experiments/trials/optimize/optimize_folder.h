@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/descriptor.h"
 #include "experiments/trials/optimize/evaluator.h"
 
 namespace talus::trials {
@@ -28,9 +29,6 @@ class OptimizeFolder {
   // are damaged, and base::Error while another process works in it.
   OptimizeFolder(std::filesystem::path root, const OptimizeProblem& problem,
                  const std::vector<std::string>& command);
-  OptimizeFolder(const OptimizeFolder&) = delete;
-  OptimizeFolder& operator=(const OptimizeFolder&) = delete;
-  ~OptimizeFolder();
 
   // Evaluation `number`, from 1, if it ended in an earlier run.
   std::optional<Evaluated> Recorded(int number) const;
@@ -52,8 +50,8 @@ class OptimizeFolder {
   const OptimizeProblem& problem_;
   std::map<int, Evaluated> recorded_;
   std::mutex writing_;
-  int lock_ = -1;
-  int log_ = -1;
+  base::Descriptor lock_;
+  base::Descriptor log_;
 };
 
 }  // namespace talus::trials

@@ -19,7 +19,8 @@ json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer) {
   for (const optimizer::BoundWarning& warning : answer.warnings) {
     const optimizer::Parameter& parameter =
         Free(problem, static_cast<std::size_t>(warning.parameter));
-    texts.push_back(optimizer::BoundText(parameter.name, warning.is_upper));
+    texts.push_back(
+        optimizer::BoundText(parameter.name, warning.is_upper, !parameter.levels.empty()));
   }
   return texts;
 }

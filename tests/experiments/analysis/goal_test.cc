@@ -80,7 +80,7 @@ TEST_F(GoalTest, EndsTheSearchWhenItIsKnownAsWellAsAsked) {
   EXPECT_EQ(answer.stop.rule->rule, StopRule::kGoal);
   EXPECT_EQ(answer.stop.rule->limit, 100);
   EXPECT_LE(answer.stop.rule->value, 100);
-  EXPECT_THAT(answer.stop.Text(), HasSubstr("tapped_density_kg_per_m3 of taps is known to ± "));
+  EXPECT_THAT(answer.stop.Text(), HasSubstr("tapped density of taps, in kg/m³, is known to ± "));
   EXPECT_LT(Trials(folder).size(), 40u);
   const auto goal = Last(folder);
   ASSERT_TRUE(goal.has_value());

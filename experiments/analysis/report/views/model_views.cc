@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/student_factor.h"
 #include "experiments/analysis/report/views/posterior_density.h"
 
 namespace talus::analysis {
@@ -123,7 +124,7 @@ std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::Vector
     }
     const optimizer::Moments predicted = evidence.model->predict(along);
     for (int i = 0; i < kSlicePoints; ++i) {
-      const double reach = kSidesOf90 * predicted.sd[i];
+      const double reach = base::kNormal90 * predicted.sd[i];
       slice.mean.push_back(predicted.mean[i]);
       slice.low.push_back(std::isnan(reach) ? reach : std::max(0.0, predicted.mean[i] - reach));
       slice.high.push_back(predicted.mean[i] + reach);
