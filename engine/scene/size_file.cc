@@ -127,70 +127,105 @@ std::size_t MostFields(const std::vector<Row>& rows) {
 // The first block of lines that hold two numbers or more, and the line of titles above it. Blank
 // lines part nothing. A line that begins with a number and has no second one may be the last, as an
 // edge without a class.
+class TableReader {
+ public:
+  TableReader(const std::filesystem::path& path, char separator)
+      : path_(path), separator_(separator) {}
+
+  // False where the block has ended.
+  bool Take(const std::string& line) {
+    ++line_number_;
+    const Row fields = Split(line, separator_);
+    if (fields.empty()) {
+      is_apart_ = !table_.rows.empty();
+      return true;
+    }
+    std::vector<double> numbers = NumbersOf(fields);
+    const auto num_valid =
+        std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+    if (num_valid >= 2 && std::isfinite(numbers[0])) {
+      AddRow(fields, std::move(numbers));
+    } else if (!table_.rows.empty() && std::isfinite(numbers[0])) {
+      if (!broken_) broken_ = line_number_;
+    } else if (!table_.rows.empty()) {
+      return false;
+    } else if (fields.size() >= 2) {
+      AddTitles(line, fields);
+    }
+    return true;
+  }
+
+  Table Finished() {
+    if (table_.rows.size() < 2) Refuse(path_, "has no table of diameters and shares");
+    const std::size_t num_columns = table_.rows.front().numbers.size();
+    table_.titles.resize(num_columns);
+    for (const Row& row : above_) {
+      for (std::size_t c = 0; c < std::min(num_columns, row.size()); ++c) {
+        table_.titles[c] += row[c] + ' ';
+      }
+    }
+    return std::move(table_);
+  }
+
+ private:
+  static std::vector<double> NumbersOf(const Row& fields) {
+    std::vector<double> numbers;
+    for (const std::string& field : fields) {
+      numbers.push_back(!numbers.empty() && IsNone(field) ? 0 : Number(field));
+    }
+    return numbers;
+  }
+
+  void AddTitles(const std::string& line, const Row& fields) {
+    table_.title_line = line;
+    if (above_.size() == 2) above_.erase(above_.begin());
+    above_.push_back(fields);
+  }
+
+  void AddRow(const Row& fields, std::vector<double> numbers) {
+    // A decimal comma between columns that commas part makes two fields of one.
+    if (separator_ == ',' && !above_.empty() && fields.size() > MostFields(above_)) {
+      RefuseLine(line_number_, "has " + std::to_string(fields.size()) + " fields below " +
+                                   std::to_string(MostFields(above_)) +
+                                   " titles; decimal commas are likely: part the columns with "
+                                   "semicolons or tabs, or write decimal points; else give every "
+                                   "column a title");
+    }
+    if (std::exchange(is_apart_, false) && !GoesOn(table_.rows, numbers)) {
+      RefuseLine(line_number_, "a second table begins without a title; remove it");
+    }
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      if (fields[c].empty()) numbers[c] = 0;  // as instruments write a class with nothing in it
+    }
+    if (broken_) {
+      RefuseLine(*broken_, "has no share, and the table goes on below: complete or remove it");
+    }
+    table_.rows.push_back({std::move(numbers), line_number_});
+  }
+
+  [[noreturn]] void RefuseLine(int number, const std::string& why) const {
+    Refuse(path_, "line " + std::to_string(number) + ": " + why);
+  }
+
+  const std::filesystem::path& path_;
+  char separator_;
+  Table table_;
+  std::vector<Row> above_;  // the last two lines of several fields above the numbers: the titles
+  int line_number_ = 0;
+  std::optional<int> broken_;  // a line without a share, by number
+  bool is_apart_ = false;      // a blank line has been there
+};
+
 Table ReadTable(std::string text, const std::filesystem::path& path) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     Refuse(path, "is UTF-16; export or save it as UTF-8");
   }
   const std::string plain = Plain(base::WithoutByteOrderMark(text));
-  const char separator = SeparatorOf(plain);
-  Table table;
-  std::vector<Row> above;  // the last two lines of several fields above the numbers: the titles
-  int line_number = 0;
-  std::optional<int> broken;
-  bool is_apart = false;  // a blank line has been there
+  TableReader reader(path, SeparatorOf(plain));
   for (const std::string& line : Lines(plain)) {
-    ++line_number;
-    const Row fields = Split(line, separator);
-    if (fields.empty()) {
-      is_apart = !table.rows.empty();
-      continue;
-    }
-    std::vector<double> numbers;
-    for (const std::string& field : fields) {
-      numbers.push_back(!numbers.empty() && IsNone(field) ? 0 : Number(field));
-    }
-    const auto num_valid =
-        std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-    if (num_valid >= 2 && std::isfinite(numbers[0])) {
-      // A decimal comma between columns that commas part makes two fields of one.
-      if (separator == ',' && !above.empty() && fields.size() > MostFields(above)) {
-        Refuse(path, "line " + std::to_string(line_number) + ": has " +
-                         std::to_string(fields.size()) + " fields below " +
-                         std::to_string(MostFields(above)) +
-                         " titles; decimal commas are likely: part the columns with semicolons or "
-                         "tabs, or write decimal points; else give every column a title");
-      }
-      if (std::exchange(is_apart, false) && !GoesOn(table.rows, numbers)) {
-        Refuse(path, "line " + std::to_string(line_number) +
-                         ": a second table begins without a title; remove it");
-      }
-      for (std::size_t c = 0; c < fields.size(); ++c) {
-        if (fields[c].empty()) numbers[c] = 0;  // as instruments write a class with nothing in it
-      }
-      if (broken) {
-        Refuse(path, "line " + std::to_string(*broken) +
-                         ": has no share, and the table goes on below: complete or remove it");
-      }
-      table.rows.push_back({std::move(numbers), line_number});
-    } else if (!table.rows.empty() && std::isfinite(numbers[0])) {
-      if (!broken) broken = line_number;
-    } else if (!table.rows.empty()) {
-      break;
-    } else if (fields.size() >= 2) {
-      table.title_line = line;
-      if (above.size() == 2) above.erase(above.begin());
-      above.push_back(fields);
-    }
+    if (!reader.Take(line)) break;
   }
-  if (table.rows.size() < 2) Refuse(path, "has no table of diameters and shares");
-  const std::size_t num_columns = table.rows.front().numbers.size();
-  table.titles.resize(num_columns);
-  for (const Row& row : above) {
-    for (std::size_t c = 0; c < std::min(num_columns, row.size()); ++c) {
-      table.titles[c] += row[c] + ' ';
-    }
-  }
-  return table;
+  return reader.Finished();
 }
 
 bool HasAny(const std::string& text, std::initializer_list<const char*> words) {

@@ -18,6 +18,7 @@
 #include "experiments/analysis/search/search_page.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/status.h"
 
 namespace talus::app {
 namespace {
@@ -33,7 +34,8 @@ struct ReportArguments {
 
 // What a newer page would show: nothing is written while it stays the same.
 std::string StateOf(const analysis::Evidence& evidence) {
-  std::string state = evidence.state;
+  std::string state(base::NameOf(evidence.state));
+  if (evidence.ended_silently) state += campaign::kEndedSilently;
   for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
     for (const analysis::TrialEvidence& trial : *trials) state += base::NameOf(trial.state).front();
   }

@@ -26,7 +26,7 @@ bool Campaign::StayEnded() {
   if (!stop_json_.empty()) {
     planner_.StopSearch(journal::ParseRecord<Stop>(stop_json_, "the journal's stop"));
   }
-  if (before.state != "finished" || before.result_json.empty()) return false;
+  if (before.state != journal::CampaignState::kFinished || before.result_json.empty()) return false;
   planner_.StopSearch(ParseAnswer(before.result_json).stop);
   console_.Line("it has ended: " + before.stop_reason + "; `talus resume " +
                 base::ShellWord(folder_.root.string()) + " --add-simulations " +
@@ -92,11 +92,13 @@ void Campaign::DropRunning() {
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
   // One that had ended before keeps its state and its result.
   const bool asked = interrupt != base::Interrupt::kNone;
-  if (asked && journal_.Progress().state == "finished") return CampaignEnd::kInterrupted;
+  if (asked && journal_.Progress().state == journal::CampaignState::kFinished) {
+    return CampaignEnd::kInterrupted;
+  }
   for (const EndedTrial& ended : ended_) journal_.NoteEnd(ended.trial);
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   journal::ProgressRecord progress{
-      .state = finished ? "finished" : "interrupted",
+      .state = finished ? journal::CampaignState::kFinished : journal::CampaignState::kInterrupted,
       .stop_reason = finished ? planner_.stop()->Text() : "it was interrupted",
       .elapsed_s = Elapsed(),
       .result_json = {},
@@ -125,8 +127,8 @@ void Campaign::NoteError(const std::string& error) {
   console_.Note("an error ended it: " + error);
   try {
     // A campaign that had ended keeps its result, and the reason why it ended.
-    if (journal_.Progress().state == "finished") return;
-    journal_.SetProgress({.state = "interrupted",
+    if (journal_.Progress().state == journal::CampaignState::kFinished) return;
+    journal_.SetProgress({.state = journal::CampaignState::kInterrupted,
                           .stop_reason = "an error ended it: " + error,
                           .elapsed_s = Elapsed(),
                           .result_json = {},

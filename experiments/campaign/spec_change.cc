@@ -143,7 +143,8 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   const auto num_told =
       static_cast<int>(std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch));
   const journal::ProgressRecord progress = journal.Progress();
-  const bool ended = progress.state == "finished" || !progress.stop_json.empty();
+  const bool ended =
+      progress.state == journal::CampaignState::kFinished || !progress.stop_json.empty();
   BudgetOptions& budget = change.spec.budget;
   const int from = ended ? num_search : std::max(num_search, budget.simulations);
   if (num_more > BudgetOptions::kMostSimulations - from) {

@@ -136,10 +136,13 @@ std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
 // In words: where there is no result, why "finished" would mislead.
 std::string StateText(const journal::ProgressRecord& progress, bool alive,
                       const std::vector<journal::TrialRecord>& trials) {
-  if (progress.state == "running" && !alive) {
+  using journal::CampaignState;
+  if (progress.state == CampaignState::kRunning && !alive) {
     return std::string(kEndedSilently) + "; `talus resume DIR` goes on";
   }
-  if (progress.state != "finished" || !progress.result_json.empty()) return progress.state;
+  if (progress.state != CampaignState::kFinished || !progress.result_json.empty()) {
+    return std::string(base::NameOf(progress.state));
+  }
   return HaveFirstAllFailed(trials) ? "ended without a result; mend the cause, and `talus resume "
                                       "DIR` runs the failed trials again"
                                     : "ended without a result";
@@ -152,6 +155,52 @@ BudgetUse UseWith(const std::optional<GoalState>& goal, const CampaignSpec& spec
       std::ranges::count(trials, journal::TrialStatus::kRunning, &journal::TrialRecord::status);
   return UseOf(spec, trials, elapsed, AtATime(spec, static_cast<int>(running)),
                goal ? goal->core_time : 0);
+}
+
+// "  trials            24 (3 for the noise, 12 of the design, 9 of the search), 6 to confirm"
+std::string TrialsLine(const Counts& counts) {
+  const auto of = [&](journal::TrialKind kind) {
+    return counts.by_kind[static_cast<std::size_t>(kind)];
+  };
+  const int noise = of(journal::TrialKind::kNoise);
+  const int design = of(journal::TrialKind::kDesign);
+  const int search = of(journal::TrialKind::kSearch);
+  return "  trials            " + std::to_string(noise + design + search) + " (" +
+         std::to_string(noise) + " for the noise, " + std::to_string(design) + " of the design, " +
+         std::to_string(search) + " of the search), " +
+         std::to_string(of(journal::TrialKind::kConfirm)) + " to confirm\n";
+}
+
+std::string NoiseLines(const std::vector<journal::ExperimentRecord>& experiments) {
+  std::string text;
+  for (const journal::ExperimentRecord& e : experiments) {
+    if (!e.noise_mm2) continue;
+    text += "  noise floor       " + base::ShortNumber(*e.noise_mm2) + " mm² (" +
+            (experiments.size() > 1 ? e.name : "experiment") + ")\n";
+  }
+  return text;
+}
+
+// What it has taken so far, and the goal where there is one.
+std::string TimeLines(const CampaignFolder& folder, const CampaignSpec& spec,
+                      const std::vector<journal::TrialRecord>& trials,
+                      const journal::ProgressRecord& progress) {
+  const Counts counts(trials);
+  std::string text;
+  if (counts.finished > 0) {
+    text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
+  }
+  text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
+  const std::optional<GoalState> goal = LastGoal(folder.root, spec);
+  const BudgetUse use = UseWith(goal, spec, trials, progress.elapsed_s);
+  if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
+  text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
+  const bool goes_on =
+      progress.result_json.empty() && progress.state != journal::CampaignState::kFinished;
+  if (goes_on && use.seconds_left) {
+    text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -173,38 +222,18 @@ std::string StatusText(const std::filesystem::path& root) {
 
   std::optional<Answer> answer;
   if (!progress.result_json.empty()) answer = ParseAnswer(progress.result_json);
-  const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
   std::string text =
       campaign.name + ": " + WithFolder(StateText(progress, alive, trials), root) + "\n";
   // With an answer its alarms say it.
   if (!progress.stop_reason.empty() && !(answer && answer->unsettled))
     text += "  because           " + Indented(progress.stop_reason, 20) + "\n";
-  text += "  trials            " + std::to_string(searched) + " (" +
-          std::to_string(counts.by_kind[0]) + " for the noise, " +
-          std::to_string(counts.by_kind[1]) + " of the design, " +
-          std::to_string(counts.by_kind[2]) + " of the search), " +
-          std::to_string(counts.by_kind[3]) + " to confirm\n";
+  text += TrialsLine(counts);
   if (!answer) text += ReusedLines(ReusedBy(trials, CoresOfTrial(spec)));
   text += "  now               " + std::to_string(counts.running) +
           (alive ? " under way\n" : " to be run or collected\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
-  text += BestLines(trials, campaign, spec);
-  for (const journal::ExperimentRecord& e : campaign.experiments) {
-    if (!e.noise_mm2) continue;
-    text += "  noise floor       " + base::ShortNumber(*e.noise_mm2) + " mm² (" +
-            (campaign.experiments.size() > 1 ? e.name : "experiment") + ")\n";
-  }
-  if (counts.finished > 0) {
-    text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
-  }
-  text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
-  const std::optional<GoalState> goal = LastGoal(folder.root, spec);
-  const BudgetUse use = UseWith(goal, spec, trials, progress.elapsed_s);
-  if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
-  text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
-  if (!answer && progress.state != "finished" && use.seconds_left) {
-    text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";
-  }
+  text += BestLines(trials, campaign, spec) + NoiseLines(campaign.experiments) +
+          TimeLines(folder, spec, trials, progress);
   if (answer) text += "\n" + AnswerSummary(*answer, root);
   return text;
 }

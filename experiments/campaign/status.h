@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/campaign/plan/budget_use.h"
@@ -10,7 +11,7 @@
 namespace talus::campaign {
 
 // What a campaign has that nobody works on, though it has not ended.
-inline constexpr const char* kEndedSilently = "ended without a word";
+inline constexpr std::string_view kEndedSilently = "ended without a word";
 
 // Readable while it runs.
 std::string StatusText(const std::filesystem::path& folder);

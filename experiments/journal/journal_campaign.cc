@@ -118,8 +118,8 @@ void Journal::SetProgress(const ProgressRecord& progress) {
       .Prepare(
           "UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4, "
           "stop_json = ?5")
-      .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json,
-            progress.stop_json)
+      .Bind(base::NameOf(progress.state), progress.stop_reason, progress.elapsed_s,
+            progress.result_json, progress.stop_json)
       .Finish();
   SealCampaign(database_);
   transaction.Commit();

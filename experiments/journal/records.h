@@ -125,12 +125,15 @@ struct CampaignRecord {
 };
 
 // What changes while it runs.
+enum class CampaignState { kRunning, kInterrupted, kFinished };
+constexpr CampaignState LastOf(CampaignState) { return CampaignState::kFinished; }
+
 struct ProgressRecord {
-  std::string state = "running";  // running, interrupted, finished
-  std::string stop_reason{};      // in words, when it is not running
-  double elapsed_s = 0;           // time worked on it, all sessions together
-  std::string result_json{};      // result.json's text once there is one
-  std::string stop_json{};        // of the rule that has ended the search, as result.json has it
+  CampaignState state = CampaignState::kRunning;
+  std::string stop_reason{};  // in words, when it is not running
+  double elapsed_s = 0;       // time worked on it, all sessions together
+  std::string result_json{};  // result.json's text once there is one
+  std::string stop_json{};    // of the rule that has ended the search, as result.json has it
 };
 
 // Origin of a trial of the design that `talus next` had simulated before its test was added.

@@ -94,10 +94,10 @@ Eigen::VectorXd PointOf(int i, const SyntheticOptions& options, const Eigen::Vec
   return point;
 }
 
-std::string PurposeOf(int i, int num_trials) {
-  if (i < 6) return "noise";
-  if (i >= num_trials - 3) return "confirm";
-  return i < num_trials / 2 ? "design" : "search";
+journal::TrialKind KindOf(int i, int num_trials) {
+  if (i < 6) return journal::TrialKind::kNoise;
+  if (i >= num_trials - 3) return journal::TrialKind::kConfirm;
+  return i < num_trials / 2 ? journal::TrialKind::kDesign : journal::TrialKind::kSearch;
 }
 
 std::vector<double> FullSet(std::vector<double> values) {
@@ -110,15 +110,16 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
   base::Random random(3, base::Stream("synthetic times"), static_cast<std::uint64_t>(i));
   analysis::TrialEvidence trial;
   trial.id = i + 1;
-  trial.purpose = PurposeOf(i, options.num_trials);
+  trial.kind = KindOf(i, options.num_trials);
   trial.point = point;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     trial.values.push_back(
         evidence.parameters[k].range.ToNative(point(static_cast<Eigen::Index>(k))));
   }
   trial.seed = 1000 + i;
-  if (options.coarse_design && (trial.purpose == "design" || trial.purpose == "noise"))
-    trial.scale_factor = 2;
+  const bool is_early =
+      trial.kind == journal::TrialKind::kDesign || trial.kind == journal::TrialKind::kNoise;
+  if (options.coarse_design && is_early) trial.scale_factor = 2;
   trial.seconds = 40 + 15 * random.Uniform();
   trial.cpu_seconds = 0.97 * trial.seconds;
   trial.metrics.assign(evidence.metrics.size(), analysis::kUndefined);
@@ -314,7 +315,8 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   evidence.objective = "sad";
   evidence.strategy = "auto";
   evidence.max_simulations = 120;
-  evidence.state = options.concluded ? "finished" : "running";
+  evidence.state =
+      options.concluded ? journal::CampaignState::kFinished : journal::CampaignState::kRunning;
   if (options.concluded)
     evidence.stop_reason =
         "what is left to gain, at most 0.01, is below 1 x the noise sd of one evaluation, 0.02";

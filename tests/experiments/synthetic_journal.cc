@@ -87,13 +87,6 @@ journal::CampaignRecord CampaignOf(const analysis::Evidence& evidence) {
   return record;
 }
 
-journal::TrialKind KindOf(const std::string& purpose) {
-  for (const auto& [name, kind] : base::Names<journal::TrialKind>::kList) {
-    if (name == purpose) return kind;
-  }
-  return journal::TrialKind::kSearch;
-}
-
 }  // namespace
 
 void WriteSyntheticJournal(const analysis::Evidence& evidence,
@@ -104,7 +97,7 @@ void WriteSyntheticJournal(const analysis::Evidence& evidence,
   for (const analysis::TrialEvidence& t : evidence.trials) {
     journal::TrialRecord record;
     record.id = t.id;
-    record.kind = KindOf(t.purpose);
+    record.kind = t.kind;
     record.kind_index = t.id;
     record.set = t.id;
     record.unit.assign(t.point.data(), t.point.data() + t.point.size());

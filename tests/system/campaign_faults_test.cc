@@ -86,7 +86,7 @@ TEST_F(CampaignFaults, SigtermStopsAtOnceAndResumeGoesOn) {
   ::kill(child, SIGTERM);
   EXPECT_EQ(WaitForExit(child), static_cast<int>(CampaignEnd::kInterrupted));
   EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress().state,
-            "interrupted");
+            journal::CampaignState::kInterrupted);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
 }

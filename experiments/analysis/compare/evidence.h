@@ -38,7 +38,7 @@ struct MetricInfo {
 struct TrialEvidence {
   int id = 0;
   journal::TrialStatus state = journal::TrialStatus::kOk;
-  std::string purpose;         // why it was run: "noise", "design", "search", "confirm"
+  journal::TrialKind kind = journal::TrialKind::kSearch;
   Eigen::VectorXd point;       // unit cube
   std::vector<double> values;  // in the order of Evidence::parameters, SI
   std::int64_t seed = 0;
@@ -102,13 +102,14 @@ struct StageTime {
 struct Evidence {
   std::string name;
   std::filesystem::path folder;  // of the campaign
-  std::string state;             // "running", "finished", "interrupted", campaign::kEndedSilently
-  std::string stop_reason;       // empty while running
-  std::size_t experiment = 0;    // whose trials these are, of the campaign's
-  double scale_factor = 1;       // of the search
-  std::string objective;         // key of one of kObjectives: the latest search's
-  std::string strategy;          // its kind
-  int max_simulations = 0;       // the budget; 0: none
+  journal::CampaignState state = journal::CampaignState::kRunning;
+  bool ended_silently = false;       // kRunning, but no process works on it
+  std::string stop_reason;           // empty while running
+  std::size_t experiment = 0;        // whose trials these are, of the campaign's
+  double scale_factor = 1;           // of the search
+  std::string objective;             // key of one of kObjectives: the latest search's
+  std::string strategy;              // its kind
+  int max_simulations = 0;           // the budget; 0: none
   double seconds_left = kUndefined;  // at most, while it runs; undefined before a trial has ended
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
@@ -132,6 +133,7 @@ struct Evidence {
   bool all_asked_for() const {
     return std::ranges::none_of(parameters, [](const auto& p) { return p.range.is_nuisance; });
   }
+  bool IsRunning() const { return state == journal::CampaignState::kRunning && !ended_silently; }
 };
 
 // Whether a trial of any experiment has ended since that with this id: what was made of those up to

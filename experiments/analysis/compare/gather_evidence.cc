@@ -71,7 +71,7 @@ TrialEvidence EvidenceOf(const journal::TrialRecord& record, std::vector<MetricI
   TrialEvidence trial;
   trial.id = static_cast<int>(record.id);
   trial.state = record.status;
-  trial.purpose = base::NameOf(record.kind);
+  trial.kind = record.kind;
   trial.point = optimizer::VectorOf(record.unit);
   trial.values = record.native;
   trial.seed = record.seed;
@@ -137,7 +137,9 @@ void AddTimes(Evidence& evidence, double elapsed) {
   double cpu = 0;
   for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
     for (const TrialEvidence& trial : *trials) {
-      if (trial.state == journal::TrialStatus::kRunning || trial.purpose == "reused") continue;
+      if (trial.state == journal::TrialStatus::kRunning ||
+          trial.kind == journal::TrialKind::kReused)
+        continue;
       wall += trial.seconds;
       cpu += trial.cpu_seconds;
     }
@@ -260,8 +262,8 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   const journal::ExperimentRecord& shown = record.experiments.at(evidence.experiment);
   const std::vector<journal::TrialRecord> trials = journal->Trials();
   AddTrialsOf(shown, trials, evidence);
-  if (evidence.state == "running" && !worked_on) evidence.state = campaign::kEndedSilently;
-  if (evidence.state == "running") {
+  evidence.ended_silently = evidence.IsRunning() && !worked_on;
+  if (evidence.IsRunning()) {
     const auto left = campaign::UseSoFar(campaign, spec, trials, progress.elapsed_s).seconds_left;
     evidence.seconds_left = left.value_or(kUndefined);
   }

@@ -59,7 +59,7 @@ ModelEvidence ModelOf(const std::shared_ptr<optimizer::PosteriorStrategy>& strat
 void AddModel(const std::filesystem::path& campaign, Evidence& evidence,
               std::span<Evidence> others) {
   const auto tells = [](const TrialEvidence& trial) {
-    return trial.state == journal::TrialStatus::kOk && trial.purpose != "confirm";
+    return trial.state == journal::TrialStatus::kOk && trial.kind != journal::TrialKind::kConfirm;
   };
   if (std::ranges::none_of(evidence.trials, tells) &&
       std::ranges::none_of(evidence.of_others, tells)) {

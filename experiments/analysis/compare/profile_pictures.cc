@@ -43,7 +43,8 @@ std::vector<Column> Columns(const Evidence& evidence, const std::vector<ShownTri
 const TrialEvidence* ConfirmingTrial(const Evidence& evidence) {
   const TrialEvidence* first = nullptr;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.purpose != "confirm" || trial.state != journal::TrialStatus::kOk) continue;
+    if (trial.kind != journal::TrialKind::kConfirm || trial.state != journal::TrialStatus::kOk)
+      continue;
     if (first == nullptr) first = &trial;
     if (evidence.answer && campaign::IsRecommended(*evidence.answer, trial.values)) return &trial;
   }

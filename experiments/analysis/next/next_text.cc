@@ -158,6 +158,51 @@ std::string UnknownText(const NextTable& table) {
   return "?: the core time was too short for it; " + cheapest + ")\n";
 }
 
+nlohmann::ordered_json WidthsJson(const NextTable& table, const Eigen::VectorXd& width) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    json[table.parameters[i].name] = width[static_cast<Eigen::Index>(i)];
+  }
+  return json;
+}
+
+// null where what it teaches is not known.
+void AddLearning(const NextTable& table, const NextCandidate& c, nlohmann::ordered_json& json) {
+  for (const char* key : {"remaining", "bits", "width_90"}) json[key] = nullptr;
+  if (table.goal) json["goal_half_width_90"] = nullptr;
+  if (!c.learning) return;
+  json["remaining"] = c.remaining;
+  json["bits"] = c.learning->bits;
+  json["width_90"] = WidthsJson(table, c.learning->width);
+  if (table.goal) json["goal_half_width_90"] = c.learning->goal_half_width;
+}
+
+nlohmann::ordered_json CandidateJson(const NextTable& table, const NextCandidate& c) {
+  nlohmann::ordered_json json{{"kind", KindName(c.kind)},
+                              {"name", c.name},
+                              {"what", c.what},
+                              {"num_simulations", c.num_simulations},
+                              {"core_time_s", c.core_time},
+                              {"num_made", c.num_made},
+                              {"core_time_made_s", c.core_time_made},
+                              {"needs_simulations", NeedsSimulations(c)}};
+  AddLearning(table, c, json);
+  if (c.bits_if_known) json["bits_if_known"] = *c.bits_if_known;
+  for (const NextUnknown& unknown : c.unknowns) {
+    json["depends_on"].push_back({{"name", unknown.name},
+                                  {"from", unknown.from},
+                                  {"to", unknown.to},
+                                  {"shift_in_errors", unknown.shift}});
+  }
+  if (!c.apart.empty()) json["told_apart"] = c.apart;
+  for (const ToldApart& number : c.numbers) {
+    json["told_apart_by"].push_back(
+        {{"name", number.metric}, {"values", {number.first, number.second}}});
+  }
+  if (!c.picture.empty()) json["picture"] = PictureName(c).string();
+  return json;
+}
+
 }  // namespace
 
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
@@ -215,16 +260,9 @@ std::string NextSummary(const NextTable& table) {
 }
 
 std::string NextJson(const NextTable& table) {
-  const auto widths = [&](const Eigen::VectorXd& width) {
-    nlohmann::ordered_json json;
-    for (std::size_t i = 0; i < table.parameters.size(); ++i) {
-      json[table.parameters[i].name] = width[static_cast<Eigen::Index>(i)];
-    }
-    return json;
-  };
   nlohmann::ordered_json json{{"after_trial", table.last_trial},
                               {"simulate_first", table.simulate_first},
-                              {"width_90", widths(table.width)}};
+                              {"width_90", WidthsJson(table, table.width)}};
   if (table.goal) {
     json["goal"] = {
         {"process", table.goal->process},           {"observable", table.goal->number},
@@ -234,35 +272,7 @@ std::string NextJson(const NextTable& table) {
   }
   json["candidates"] = nlohmann::ordered_json::array();
   for (const NextCandidate& c : table.candidates) {
-    nlohmann::ordered_json candidate{{"kind", KindName(c.kind)},
-                                     {"name", c.name},
-                                     {"what", c.what},
-                                     {"num_simulations", c.num_simulations},
-                                     {"core_time_s", c.core_time},
-                                     {"num_made", c.num_made},
-                                     {"core_time_made_s", c.core_time_made}};
-    candidate["needs_simulations"] = NeedsSimulations(c);
-    candidate["remaining"] = c.learning ? nlohmann::ordered_json(c.remaining) : nullptr;
-    candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
-    candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
-    if (c.bits_if_known) candidate["bits_if_known"] = *c.bits_if_known;
-    for (const NextUnknown& unknown : c.unknowns) {
-      candidate["depends_on"].push_back({{"name", unknown.name},
-                                         {"from", unknown.from},
-                                         {"to", unknown.to},
-                                         {"shift_in_errors", unknown.shift}});
-    }
-    if (table.goal) {
-      candidate["goal_half_width_90"] =
-          c.learning ? nlohmann::ordered_json(c.learning->goal_half_width) : nullptr;
-    }
-    if (!c.apart.empty()) candidate["told_apart"] = c.apart;
-    for (const ToldApart& number : c.numbers) {
-      candidate["told_apart_by"].push_back(
-          {{"name", number.metric}, {"values", {number.first, number.second}}});
-    }
-    if (!c.picture.empty()) candidate["picture"] = PictureName(c).string();
-    json["candidates"].push_back(std::move(candidate));
+    json["candidates"].push_back(CandidateJson(table, c));
   }
   return base::JsonText(json, 2) + "\n";
 }

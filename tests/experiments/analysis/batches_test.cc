@@ -323,7 +323,8 @@ TEST_F(BatchesTest, OneCampaignIsRefusedAndAnUnfinishedOneIsSaid) {
   } catch (const base::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("is named twice"));
   }
-  journal::Journal::Open(journal::JournalPath(first)).SetProgress({.state = "interrupted"});
+  journal::Journal::Open(journal::JournalPath(first))
+      .SetProgress({.state = journal::CampaignState::kInterrupted});
   EXPECT_THAT(AlarmsOf(campaign::ReadJointView(first)).front(), HasSubstr("is not finished"));
 }
 

@@ -168,6 +168,10 @@ TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
   const std::string none = NextSummary(Rank(view, {slow, {.name = "quick"}}, false));
   EXPECT_THAT(none, HasSubstr("none could be simulated in that time: the cheapest, quick, takes"));
   EXPECT_THAT(none, HasSubstr("`talus next DIR --simulate --budget \"30 s\"`"));
+  NextTable asked = Rank(view, {slow, {.name = "quick"}}, false);
+  EXPECT_THAT(NextText(asked), HasSubstr("?: `talus next DIR --simulate` runs the few"));
+  asked.has_simulated = true;
+  EXPECT_THAT(NextText(asked), HasSubstr("?: the core time was too short for it; the cheapest, "));
 }
 
 // Two rectangles, of which the second is lower and wider: the difference has both colours, and two

@@ -194,7 +194,8 @@ TEST_F(PredictTest, OneSetHasNoUncertaintyOfParameters) {
 
 // A campaign that goes on has no answer until it ends again, whatever result.json still says.
 TEST_F(PredictTest, AnAnswerThatNoLongerStandsIsNotTaken) {
-  journal::Journal::Open(journal::JournalPath(folder_)).SetProgress({.state = "interrupted"});
+  journal::Journal::Open(journal::JournalPath(folder_))
+      .SetProgress({.state = journal::CampaignState::kInterrupted});
   ASSERT_TRUE(fs::exists(folder_ / "result.json"));
   EXPECT_THAT(ErrorOf({.file = Taps(), .recommended = true}), HasSubstr("has no result yet"));
 }

@@ -117,10 +117,10 @@ TEST(PageHead, CountsTheTrialsOfAllExperiments) {
   evidence.of_others.assign(2, TrialEvidence{});
   for (TrialEvidence& other : evidence.of_others) {
     other.state = journal::TrialStatus::kOk;
-    other.purpose = "search";
+    other.kind = journal::TrialKind::kSearch;
     other.cpu_seconds = 1800;
   }
-  evidence.of_others[1].purpose = "confirm";
+  evidence.of_others[1].kind = journal::TrialKind::kConfirm;
   const json both = head();
   EXPECT_EQ(both["counts"]["searched"], alone["counts"]["searched"].get<int>() + 1);
   EXPECT_EQ(both["counts"]["confirming"], alone["counts"]["confirming"].get<int>() + 1);
@@ -364,7 +364,7 @@ TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {
   EXPECT_TRUE(views[1].is_recommended);
   EXPECT_DOUBLE_EQ(views[1].values[0], evidence.answer->parameters[0].value);
   ASSERT_NE(views[1].trial, nullptr);
-  EXPECT_EQ(views[1].trial->purpose, "confirm");  // simulated at that very set
+  EXPECT_EQ(views[1].trial->kind, journal::TrialKind::kConfirm);  // simulated at that very set
   // No heap stands for a set unless its own set fits.
   for (const RepresentativeView& view : views) {
     if (view.trial == nullptr) continue;
@@ -391,7 +391,8 @@ TEST(GatherEvidence, ACampaignThatWasKilledIsNotRunning) {
   test::WriteSyntheticJournal(test::MakeSyntheticCampaign({.num_trials = 20, .concluded = false}),
                               folder);
   const Evidence evidence = GatherEvidence(folder, "");
-  EXPECT_EQ(evidence.state, "ended without a word");
+  EXPECT_TRUE(evidence.ended_silently);
+  EXPECT_FALSE(evidence.IsRunning());
   EXPECT_EQ(json::parse(PageJson(MakeReportData(evidence)))["campaign"]["ended_silently"], true);
   EXPECT_TRUE(std::isnan(evidence.seconds_left));
   std::filesystem::remove_all(folder);

@@ -279,7 +279,7 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedTakesNoEditedSpecOver) {
   EXPECT_THAT(error, HasSubstr("tapped_density: is 9000"));
   EXPECT_THAT(error, Not(HasSubstr("experiments[1]")));
   const auto progress = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress();
-  EXPECT_EQ(progress.state, "finished");
+  EXPECT_EQ(progress.state, journal::CampaignState::kFinished);
   EXPECT_EQ(LoadSpec(folder).budget.simulations, 16);
 }
 

@@ -368,7 +368,8 @@ TEST_F(CampaignTest, ASearchThatARuleHasEndedIsNotResumedUnlessMoreIsAskedFor) {
   const fs::path folder = Begin(R"(, "budget": {"simulations": 20}, "workers": 1)");
   const Stop stop{.kind = StopKind::kRule, .rule = optimizer::StopReason{.name = "the rule"}};
   journal::Journal::Open(journal::JournalPath(folder))
-      .SetProgress({.state = "interrupted", .stop_json = base::JsonTextWriter::TextOf(stop)});
+      .SetProgress({.state = journal::CampaignState::kInterrupted,
+                    .stop_json = base::JsonTextWriter::TextOf(stop)});
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFailed);  // without a trial there is no answer
   EXPECT_EQ(Trials(folder).size(), 0u);
   EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress().stop_reason,

@@ -137,7 +137,7 @@ TEST_F(GoingOnTest, CtrlCLeavesACampaignThatHasEndedAsItWas) {
   const fs::path folder = Finished(kSmall);
   const journal::ProgressRecord before = Progress(folder);
   EXPECT_EQ(ResumeInterrupted(folder, {}), CampaignEnd::kInterrupted);
-  EXPECT_EQ(Progress(folder).state, "finished");
+  EXPECT_EQ(Progress(folder).state, journal::CampaignState::kFinished);
   EXPECT_EQ(Progress(folder).stop_reason, before.stop_reason);
   EXPECT_EQ(Progress(folder).result_json, before.result_json);
 }
@@ -193,7 +193,8 @@ TEST_F(GoingOnTest, ASearchThatIsBeingConfirmedDoesNotGoOnByItself) {
     spec.budget.core_time = 3600;
     record.spec_json = SpecText(spec);
     journal.SetSpec(record);
-    journal.SetProgress({.state = "running", .stop_json = Progress(folder).stop_json});
+    journal.SetProgress(
+        {.state = journal::CampaignState::kRunning, .stop_json = Progress(folder).stop_json});
   }
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(Trials(folder).size(), num_trials);
@@ -208,7 +209,7 @@ TEST_F(GoingOnTest, AnExtensionThatCannotBeWrittenLeavesTheSearchEnded) {
   fs::remove(folder / "aehp.png");
   fs::create_directories(folder / "aehp.png/in_the_way");
   EXPECT_THROW(RunFake(folder, {}, {.add_simulations = 2}), base::Error);
-  EXPECT_EQ(Progress(folder).state, "finished");
+  EXPECT_EQ(Progress(folder).state, journal::CampaignState::kFinished);
   EXPECT_EQ(Progress(folder).stop_json, before.stop_json);
   fs::remove_all(folder / "aehp.png");
   base::WriteFileAtomically(folder / "aehp.png", image);
@@ -316,7 +317,7 @@ TEST_F(GoingOnTest, WhatAWallClockHasEndedGoesOnWithSoManyMore) {
       Begin(R"(, "budget": {"simulations": 10, "wall_clock": "1 h"}, "workers": 1,
     "strategy": {"kind": "sobol"}, "confirm": {"candidates": 0})");
   journal::Journal::Open(journal::JournalPath(folder))
-      .SetProgress({.state = "interrupted", .elapsed_s = 7200});
+      .SetProgress({.state = journal::CampaignState::kInterrupted, .elapsed_s = 7200});
   RunFake(folder, {});
   EXPECT_THAT(Progress(folder).stop_reason, HasSubstr("the time budget of"));
   EXPECT_EQ(NumSearch(folder), 0);

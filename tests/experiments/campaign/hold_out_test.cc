@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "experiments/analysis/card/card.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/campaign/answer/agreement.h"
@@ -94,6 +95,9 @@ TEST_F(HoldingOut, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   EXPECT_GT(held_out.implausibility, 3);
   EXPECT_THAT(AnswerSummary(result, "runs/heap"),
               HasSubstr("fast lift, which the answer is made without"));
+  const analysis::Card card = analysis::ReadCard(folder);
+  ASSERT_EQ(card.tests.size(), 1u);
+  EXPECT_EQ(card.tests[0].name, "heap");
   EXPECT_EQ(AnswerSummary(result, "runs/heap").find("no set fits"), std::string::npos);
   const analysis::Evidence evidence = analysis::GatherEvidence(folder, "");
   EXPECT_THAT(analysis::HeldOutWords(evidence.answer.value()).front(),

@@ -271,13 +271,19 @@ TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
 }
 
 TEST(PosteriorInWords, FewSimulationsOfSeveralExperimentsAreSaid) {
-  ResultPosterior posterior{.target_scale_factor = 1,
-                            .fewest_at_finest = 8,
-                            .experiments = {{.name = "heap"}, {.name = "wide plate"}}};
+  ResultPosterior posterior{
+      .target_scale_factor = 1,
+      .fewest_at_finest = 8,
+      .experiments = {{.name = "heap", .caution = 1.3}, {.name = "wide plate", .caution = 1.8}}};
   const auto warnings = PosteriorAlarms(With(posterior));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].kind, AlarmKind::kFewSimulations);
-  EXPECT_THAT(AlarmText(warnings[0]), HasSubstr("only 8 simulations"));
+  EXPECT_THAT(AlarmText(warnings[0]), HasSubstr("\"wide plate\" has only 8 simulations"));
+  // A search that ended since more would hardly narrow the ranges has counted that in.
+  Answer done = With(posterior);
+  done.stop = {.kind = StopKind::kRule,
+               .rule = optimizer::StopReason{.rule = optimizer::StopRule::kShare}};
+  EXPECT_TRUE(PosteriorAlarms(done).empty());
   posterior.fewest_at_finest = 12;
   EXPECT_TRUE(PosteriorAlarms(With(posterior)).empty());
   posterior.fewest_at_finest = 8;

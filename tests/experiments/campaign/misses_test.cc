@@ -189,6 +189,12 @@ TEST_F(MissedImage, IsOfTheSearchWhereItsModelExpectedAFit) {
   EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("its model expected this set to fit"));
 }
 
+TEST_F(MissedImage, IsOfTheSearchWhereAScaleFactorIsUnlearnt) {
+  answer_.posterior->unlearnt_scale_factors = {2};
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("at scale factor 2 to tell its bias"));
+}
+
 TEST_F(MissedImage, IsOfTheSearchWhereTheRegionIsStillTheSurrogates) {
   answer_.posterior->surrogate_narrowing = 0.5;
   EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
@@ -227,6 +233,12 @@ TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   end.experiments[0].over_floor = 1.4;
   end.experiments[0].scalars[0].mean = 7.5e-6;  // 2.5 standard errors
   EXPECT_TRUE(Misses(answer, end));
+  end.experiments[0].over_floor = 1.6;  // both, the number by more
+  const std::vector<MeasurementFit> distances = DistancesOf(answer, end);
+  ASSERT_THAT(distances, SizeIs(2));
+  EXPECT_EQ(distances[0].number, "mass_fallen_kg");
+  EXPECT_DOUBLE_EQ(distances[0].off, 1.25);
+  EXPECT_DOUBLE_EQ(distances[1].off, 1.6 / kCloseRuns);
   answer.posterior->experiments.clear();  // held out: nothing is asked of it
   EXPECT_FALSE(Misses(answer, end));
 }

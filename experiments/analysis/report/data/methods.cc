@@ -84,12 +84,12 @@ Counts CountsOf(const Evidence& e) {
   Counts counts;
   for (const auto* trials : {&e.trials, &e.of_others}) {
     for (const TrialEvidence& t : *trials) {
-      if (t.state == journal::TrialStatus::kFailed && t.purpose != "confirm") {
+      if (t.state == journal::TrialStatus::kFailed && t.kind != journal::TrialKind::kConfirm) {
         ++counts.failed;
         ++counts.searched;
       }
-      if (t.state != journal::TrialStatus::kOk || t.purpose == "confirm") continue;
-      ++(t.purpose == "reused" ? counts.reused : counts.searched);
+      if (t.state != journal::TrialStatus::kOk || t.kind == journal::TrialKind::kConfirm) continue;
+      ++(t.kind == journal::TrialKind::kReused ? counts.reused : counts.searched);
       counts.scale_factors.push_back(t.scale_factor);
     }
   }

@@ -13,7 +13,10 @@ std::string Trials(const Evidence& evidence) {
   for (const MetricInfo& metric : evidence.metrics) csv.Cell(metric.name);
   csv.Cell("duration_s").Cell("cpu_s").Cell("reason").EndRow();
   for (const TrialEvidence& t : evidence.trials) {
-    csv.Cell(t.id).Cell(base::NameOf(t.state)).Cell(t.purpose).Cell(std::to_string(t.seed));
+    csv.Cell(t.id)
+        .Cell(base::NameOf(t.state))
+        .Cell(base::NameOf(t.kind))
+        .Cell(std::to_string(t.seed));
     csv.Cell(t.scale_factor).Cells(t.values).Cells(t.metrics);
     csv.Cell(t.seconds).Cell(t.cpu_seconds).Cell(t.reason).EndRow();
   }

@@ -95,6 +95,36 @@ PageValue ApartJson(const CandidateView::Number& number) {
       {"values", ListJson(number.values, [&](double x) { return NumberJson(unit.per_unit * x); })}};
 }
 
+PageValue PredictedNumberJson(const PredictedNumber& n) {
+  const ShownUnit unit = ShownUnitOf(rigs::UnitOfObservable(n.name));
+  const auto shown = [&](double x) { return NumberJson(unit.per_unit * x); };
+  PageValue json{{"title", MetricTitle(n.name)},
+                 {"unit", unit.text},
+                 {"usual", n.is_usual},
+                 {"mean", shown(n.mean)},
+                 {"low", shown(n.low)},
+                 {"high", shown(n.high)},
+                 {"parameters_sd", shown(n.parameters_sd)},
+                 {"run_sd", shown(n.run_sd)},
+                 {"parameters_share", NumberJson(n.parameters_share)},
+                 {"silent", SilentText(n)}};
+  json["surrogate"] = nullptr;
+  if (n.surrogate) {
+    json["surrogate"] = {{"used", n.surrogate->is_used},
+                         {"scale_factor", NumberJson(n.surrogate->scale_factor)},
+                         {"left_out", shown(n.surrogate->left_out_error)},
+                         {"draws", shown(n.surrogate->draws_error)}};
+  }
+  json["measured"] = nullptr;
+  if (n.measured) {
+    json["measured"] = {{"value", shown(n.measured->value)},
+                        {"error", shown(n.measured->standard_error)},
+                        {"inside", n.measured->is_inside},
+                        {"another_inside", n.measured->nearest_is_inside}};
+  }
+  return json;
+}
+
 }  // namespace
 
 PageValue NextTableJson(const NextTableView& table) {
@@ -130,35 +160,6 @@ PageValue NextTableJson(const NextTableView& table) {
 
 PageValue PredictionJson(const PredictionView& view) {
   const Prediction& p = view.prediction;
-  const auto number = [](const PredictedNumber& n) {
-    const ShownUnit unit = ShownUnitOf(rigs::UnitOfObservable(n.name));
-    const auto shown = [&](double x) { return NumberJson(unit.per_unit * x); };
-    PageValue json{{"title", MetricTitle(n.name)},
-                   {"unit", unit.text},
-                   {"usual", n.is_usual},
-                   {"mean", shown(n.mean)},
-                   {"low", shown(n.low)},
-                   {"high", shown(n.high)},
-                   {"parameters_sd", shown(n.parameters_sd)},
-                   {"run_sd", shown(n.run_sd)},
-                   {"parameters_share", NumberJson(n.parameters_share)},
-                   {"silent", SilentText(n)}};
-    json["surrogate"] = nullptr;
-    if (n.surrogate) {
-      json["surrogate"] = {{"used", n.surrogate->is_used},
-                           {"scale_factor", NumberJson(n.surrogate->scale_factor)},
-                           {"left_out", shown(n.surrogate->left_out_error)},
-                           {"draws", shown(n.surrogate->draws_error)}};
-    }
-    json["measured"] = nullptr;
-    if (n.measured) {
-      json["measured"] = {{"value", shown(n.measured->value)},
-                          {"error", shown(n.measured->standard_error)},
-                          {"inside", n.measured->is_inside},
-                          {"another_inside", n.measured->nearest_is_inside}};
-    }
-    return json;
-  };
   const auto set = [&](int draw) {
     return NumbersJson(p.draws.at(static_cast<std::size_t>(draw)).values);
   };
@@ -171,7 +172,7 @@ PageValue PredictionJson(const PredictionView& view) {
           {"ended", p.num_ended},
           {"outdated", view.is_outdated},
           {"notes", p.notes},
-          {"numbers", ListJson(p.numbers, number)},
+          {"numbers", ListJson(p.numbers, PredictedNumberJson)},
           {"mean", UriJson(view.mean)},
           {"mean_size", {view.mean.width, view.mean.height}},
           {"different", UriJson(view.different)},

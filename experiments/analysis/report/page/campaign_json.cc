@@ -14,9 +14,10 @@ PageValue CountsJson(const Evidence& e) {
   for (const auto* trials : {&e.trials, &e.of_others}) {
     for (const TrialEvidence& t : *trials) {
       const bool ok = t.state == journal::TrialStatus::kOk;
-      searched += ok && t.purpose != "confirm" && t.purpose != "reused";
-      reused += ok && t.purpose == "reused";
-      confirming += ok && t.purpose == "confirm";
+      searched +=
+          ok && t.kind != journal::TrialKind::kConfirm && t.kind != journal::TrialKind::kReused;
+      reused += ok && t.kind == journal::TrialKind::kReused;
+      confirming += ok && t.kind == journal::TrialKind::kConfirm;
       failed += t.state == journal::TrialStatus::kFailed;
       running += t.state == journal::TrialStatus::kRunning;
     }
@@ -32,7 +33,8 @@ double CoreSeconds(const Evidence& e) {
   double sum = 0;
   for (const auto* trials : {&e.trials, &e.of_others}) {
     for (const TrialEvidence& t : *trials) {
-      if (t.purpose != "reused" && std::isfinite(t.cpu_seconds)) sum += t.cpu_seconds;
+      if (t.kind != journal::TrialKind::kReused && std::isfinite(t.cpu_seconds))
+        sum += t.cpu_seconds;
     }
   }
   return sum;
@@ -61,22 +63,23 @@ PageValue ObjectiveJson(const ReportData& data) {
 PageValue CampaignJson(const ReportData& data) {
   const Evidence& e = data.evidence;
   const double cpu = CoreSeconds(e);
-  return {{"name", e.name},
-          {"state", e.state},
-          {"ended_silently", e.state == campaign::kEndedSilently},
-          {"stop_reason", e.stop_reason},
-          {"folder", base::ShellWord(e.folder.string())},
-          {"budget", e.max_simulations},
-          {"seconds_left", NumberJson(e.seconds_left)},
-          {"counts", CountsJson(e)},
-          {"reused_from",
-           e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},
-          {"scale_factor", NumberJson(e.scale_factor)},
-          {"core_hours", cpu > 0 ? NumberJson(cpu / 3600) : PageValue(nullptr)},
-          {"experiment", e.experiment < e.experiments.size() ? e.experiments[e.experiment] : ""},
-          {"num_experiments", e.experiments.size()},
-          {"has_image", e.reference.has_image()},
-          {"objective", ObjectiveJson(data)}};
+  return {
+      {"name", e.name},
+      {"state", std::string(e.ended_silently ? campaign::kEndedSilently : base::NameOf(e.state))},
+      {"ended_silently", e.ended_silently},
+      {"stop_reason", e.stop_reason},
+      {"folder", base::ShellWord(e.folder.string())},
+      {"budget", e.max_simulations},
+      {"seconds_left", NumberJson(e.seconds_left)},
+      {"counts", CountsJson(e)},
+      {"reused_from",
+       e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},
+      {"scale_factor", NumberJson(e.scale_factor)},
+      {"core_hours", cpu > 0 ? NumberJson(cpu / 3600) : PageValue(nullptr)},
+      {"experiment", e.experiment < e.experiments.size() ? e.experiments[e.experiment] : ""},
+      {"num_experiments", e.experiments.size()},
+      {"has_image", e.reference.has_image()},
+      {"objective", ObjectiveJson(data)}};
 }
 
 PageValue ParametersJson(const Evidence& evidence) {
@@ -121,7 +124,7 @@ PageValue TrialsJson(const Evidence& evidence) {
   }
   return {{"id", column([](const TrialEvidence& t) { return t.id; })},
           {"state", column([](const TrialEvidence& t) { return base::NameOf(t.state); })},
-          {"purpose", column([](const TrialEvidence& t) { return t.purpose; })},
+          {"purpose", column([](const TrialEvidence& t) { return base::NameOf(t.kind); })},
           {"reason", column([](const TrialEvidence& t) { return t.reason; })},
           {"scale", column([](const TrialEvidence& t) { return NumberJson(t.scale_factor); })},
           {"seconds", column([](const TrialEvidence& t) { return NumberJson(t.seconds); })},

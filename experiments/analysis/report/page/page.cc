@@ -54,7 +54,7 @@ std::string Licences() {
 
 // As long as the campaign runs.
 std::string Reloading(const ReportData& data, const PageOptions& options) {
-  if (options.reload <= 0 || data.evidence.state != "running") return "";
+  if (options.reload <= 0 || !data.evidence.IsRunning()) return "";
   return "<meta http-equiv=\"refresh\" content=\"" + std::to_string(options.reload) + "\">";
 }
 

@@ -43,7 +43,7 @@ std::vector<const TrialEvidence*> FittingTrials(const Evidence& evidence) {
   std::vector<const TrialEvidence*> trials;
   for (const TrialEvidence& trial : evidence.trials) {
     if (trial.state != journal::TrialStatus::kOk) continue;
-    if (trial.scale_factor == evidence.scale_factor || trial.purpose == "confirm") {
+    if (trial.scale_factor == evidence.scale_factor || trial.kind == journal::TrialKind::kConfirm) {
       trials.push_back(&trial);
     }
   }
