@@ -37,6 +37,15 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   return with;
 }
 
+// Throws where the campaign's strategy has one objective.
+void RequireSeveral(const CampaignSpec& before, const std::filesystem::path& folder) {
+  if (!before.HasOwnProposer()) return;
+  throw base::ConfigError(folder.string() + ": its strategy \"" +
+                          std::string(base::NameOf(before.strategy.kind)) +
+                          "\" minimises one objective, so no test can be added; begin a new "
+                          "campaign of both tests, with strategy.kind \"auto\"");
+}
+
 // Reports problems under the keys of the test's own file.
 void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
            const std::filesystem::path& file) {
@@ -68,8 +77,10 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
     throw base::ConfigError("--core-time: must be positive");
   }
   const auto experiment = ReadExperiment(file);
-  OpenedCampaign opened = OpenCampaign(
-      folder, {}, console, [&](const CampaignSpec& before) { Check(before, experiment, file); });
+  OpenedCampaign opened = OpenCampaign(folder, {}, console, [&](const CampaignSpec& before) {
+    RequireSeveral(before, folder);
+    Check(before, experiment, file);
+  });
   CampaignSpec spec = SpecWith(opened.spec, experiment);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
   CoreTime core_time(opened.spec);

@@ -99,6 +99,13 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const AddedParameter& added) {
     if (space.parameters[static_cast<std::size_t>(i)].name != added.name) continue;
     throw base::ConfigError("--search: " + added.name + " is searched already");
   }
+  if (spec.HasOwnProposer()) {
+    throw base::ConfigError("--search: strategy.kind must be \"auto\", and is \"" +
+                            std::string(base::NameOf(spec.strategy.kind)) +
+                            "\", which would not look at the new range as a whole; begin a new "
+                            "campaign that searches " +
+                            added.name);
+  }
   const double value = ValueOfTrials(spec, added.name);
   if (!(value >= added.low && value <= added.high)) {
     throw base::ConfigError("--search: " + added.name + ": the range must hold " +

@@ -84,7 +84,8 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
           [&](const journal::TrialRecord& t) { return kind.Is(t) && t.IsOfSearch(); });
       text += "  " + campaign.experiments[e].name + " at scale factor " +
               base::ShortNumber(factor) + ": " + std::to_string(count) +
-              " trials of the search, best " + BestLine(trials, campaign, references[e], kind);
+              " trials but for confirming ones, best " +
+              BestLine(trials, campaign, references[e], kind);
     }
   }
   return text;

@@ -14,6 +14,7 @@
 #include "imaging/heap/metrics.h"
 #include "imaging/heap/profile.h"
 #include "imaging/light/backlight.h"
+#include "imaging/photos/ground.h"
 #include "imaging/photos/photo_warning.h"
 #include "imaging/photos/plate/plate_fit.h"
 
@@ -64,6 +65,7 @@ struct ExperimentOptions {
   PowderLook powder = PowderLook::kAuto;
   bool allow_missing_views = false;  // go on without views that are missing or unusable
   MetricOptions metrics;
+  Ground ground = Ground::kPlate;  // no key: it follows from the test
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

@@ -28,7 +28,8 @@ struct MeasuredPhoto {
 MeasuredPhoto MeasurePhoto(const ExperimentOptions& options, const Placement& placement,
                            const PlatePose& pose, Photo& photo) {
   const BacklitPhoto flat = TakeFlat(options, photo);
-  GrayImage silhouette = MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame);
+  GrayImage silhouette =
+      MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame, options.ground);
   const double nebp = Nebp(silhouette);
   const bool reaches_border =
       ReachesBorder(silhouette, flat, pose, placement.photo_pixel, placement.frame);
@@ -41,6 +42,7 @@ MeasuredPhoto MeasurePhoto(const ExperimentOptions& options, const Placement& pl
                                                    .silhouette = silhouette,
                                                    .nebp = nebp,
                                                    .frame = placement.frame,
+                                                   .ground = options.ground,
                                                    .overexposed = photo.overexposed,
                                                    .reaches_border = reaches_border});
   return {std::move(view), std::move(silhouette), std::move(warnings)};

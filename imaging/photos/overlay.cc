@@ -90,8 +90,8 @@ ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const Experim
                      double photo_pixel) {
   const GrayImage photo = ReadPhotograph(view.photo).image;
   const BacklitPhoto flat = FlattenPhoto(photo, options.light(), view.photo.string());
-  return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
-                     frame);
+  return DrawOverlay(photo, view.plate,
+                     MakeSilhouette(flat, view.plate, photo_pixel, frame, options.ground), frame);
 }
 
 // Linear between pixel centres; what the photograph does not show is white.

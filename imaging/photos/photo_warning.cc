@@ -167,7 +167,8 @@ std::vector<PhotoWarning> WarningsOf(const SeenView& view) {
   const auto warn = [&](bool is_so, PhotoDoubt doubt, double value = 0) {
     if (is_so) warnings.push_back({.doubt = doubt, .photo = view.photo, .value = value});
   };
-  const double beside = ShareBesidePlate(view.silhouette, view.frame);
+  const double beside =
+      view.ground == Ground::kPlate ? ShareBesidePlate(view.silhouette, view.frame) : 0;
   warn(view.nebp == 0, PhotoDoubt::kNoPowder);
   warn(view.reaches_border, PhotoDoubt::kTouchesFrame);
   warn(beside > kMuchBesidePlate, PhotoDoubt::kBesidePlate, beside);

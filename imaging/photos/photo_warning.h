@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "imaging/heap/profile.h"
+#include "imaging/photos/ground.h"
 
 namespace talus::imaging {
 
@@ -55,6 +56,7 @@ struct SeenView {
   const GrayImage& silhouette;
   double nebp = 0;  // [px]
   const Frame& frame;
+  Ground ground = Ground::kPlate;
   double overexposed = 0;       // as in BacklitPhoto [-]
   bool reaches_border = false;  // of the photograph
 };

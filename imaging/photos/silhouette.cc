@@ -48,10 +48,13 @@ int RowsAboveBaseline(const Frame& frame) {
   return std::clamp(static_cast<int>(std::floor(frame.baseline + 0.5)), 0, frame.height);
 }
 
-// 255 for the labels of areas that reach down to the plate.
-std::vector<std::uint8_t> Standing(const cv::Mat& labels, int num_labels, const Frame& frame) {
+// 255 for the labels of areas that reach down to the ground.
+std::vector<std::uint8_t> Standing(const cv::Mat& labels, int num_labels, const Frame& frame,
+                                   Ground ground) {
   std::vector<std::uint8_t> stands(static_cast<std::size_t>(num_labels), 0);
-  const double half = frame.plate_diameter / frame.pixel_size * (0.5 + kBesidePlate);
+  const double half = ground == Ground::kFloor
+                          ? labels.cols
+                          : frame.plate_diameter / frame.pixel_size * (0.5 + kBesidePlate);
   const int first = std::max(0, static_cast<int>(std::floor(frame.center_x - half)));
   const int last = std::min(labels.cols - 1, static_cast<int>(std::ceil(frame.center_x + half)));
   const int highest = std::max(0, labels.rows - static_cast<int>(kOntoPlate));
@@ -99,11 +102,11 @@ void DropThings(const cv::Mat& labels, const cv::Mat& stats, const Frame& frame,
   }
 }
 
-// The connected areas that stand on the plate, or are the heap and grains on a table.
-cv::Mat StandingOnPlate(const cv::Mat& powder, const Frame& frame) {
+// The connected areas that stand on the ground, or are the heap and grains on a table.
+cv::Mat StandingOn(Ground ground, const cv::Mat& powder, const Frame& frame) {
   cv::Mat labels, stats, centers;
   const int count = cv::connectedComponentsWithStats(powder, labels, stats, centers, 8);
-  std::vector<std::uint8_t> stands = Standing(labels, count, frame);
+  std::vector<std::uint8_t> stands = Standing(labels, count, frame, ground);
   if (frame.on_table()) DropThings(labels, stats, frame, stands);
   cv::Mat heap(powder.size(), CV_8U);
   for (int y = 0; y < powder.rows; ++y) {
@@ -124,14 +127,14 @@ void FillHoles(cv::Mat& heap) {
 }
 
 // `powder` 255 where dark, rows above the baseline only.
-GrayImage Finish(const cv::Mat& powder, const Frame& frame) {
+GrayImage Finish(const cv::Mat& powder, const Frame& frame, Ground ground) {
   GrayImage silhouette{
       .width = frame.width,
       .height = frame.height,
       .pixels = std::vector<std::uint8_t>(
           static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), 255)};
   if (powder.empty()) return silhouette;  // no row is above the baseline
-  cv::Mat heap = StandingOnPlate(powder, frame);
+  cv::Mat heap = StandingOn(ground, powder, frame);
   FillHoles(heap);
   for (int y = 0; y < heap.rows; ++y) {
     for (int x = 0; x < heap.cols; ++x) {
@@ -144,10 +147,10 @@ GrayImage Finish(const cv::Mat& powder, const Frame& frame) {
 }  // namespace
 
 GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
-                         const Frame& frame) {
+                         const Frame& frame, Ground ground) {
   const cv::Mat relative = Resample(photo, plate, frame.pixel_size / photo_pixel, frame);
   const cv::Mat powder = relative < photo.threshold;
-  return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame);
+  return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame, ground);
 }
 
 bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const PlatePose& plate,

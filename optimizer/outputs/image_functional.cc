@@ -7,6 +7,11 @@
 #include "surrogate/standard_deviation.h"
 
 namespace talus::optimizer {
+namespace {
+
+constexpr Eigen::Index kFewestDraws = 16;
+
+}  // namespace
 
 ImageFunctional::ImageFunctional(std::shared_ptr<const surrogate::FieldCode> code,
                                  const FieldObjective& objective,
@@ -15,8 +20,8 @@ ImageFunctional::ImageFunctional(std::shared_ptr<const surrogate::FieldCode> cod
       objective_(objective),
       modes_(modes),
       blur_(std::move(blur)),
-      normals_(MirroredNormals(kNumDraws, modes.basis.cols(),
-                               base::Random(1, base::Stream("objective draws")))) {}
+      normals_(OrthogonalNormals(kFewestDraws, modes.basis.cols(),
+                                 base::Random(1, base::Stream("objective draws")))) {}
 
 Eigen::VectorXd ImageFunctional::OneHeap(const Eigen::VectorXd& coefficients) const {
   return modes_.mean + modes_.basis * coefficients;
@@ -40,8 +45,8 @@ double ImageFunctional::Expected(const Coefficients& at) const {
 
 Eigen::VectorXd ImageFunctional::Draws(const Coefficients& at) const {
   const Eigen::VectorXd sd = at.variance.cwiseSqrt();
-  Eigen::VectorXd values(kNumDraws);
-  for (Eigen::Index i = 0; i < kNumDraws; ++i) {
+  Eigen::VectorXd values(num_draws());
+  for (Eigen::Index i = 0; i < num_draws(); ++i) {
     values[i] = Value(MeanImage(at.mean + sd.cwiseProduct(normals_.row(i).transpose())));
   }
   return values;

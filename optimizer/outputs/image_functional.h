@@ -34,7 +34,7 @@ class ImageFunctional {
   Eigen::VectorXd Draws(const Coefficients& at) const;
   double SdOfDraws(const Coefficients& at) const;
 
-  static constexpr int kNumDraws = 16;
+  Eigen::Index num_draws() const { return normals_.rows(); }
 
  private:
   std::shared_ptr<const surrogate::FieldCode> code_;

@@ -97,7 +97,7 @@ double ImageModel::ImageWork() const {
 
 double ImageModel::PredictionWork() const {
   const auto size = static_cast<double>(residuals_.rows());
-  return num_modes() * size * (size / 2 + 40) + ImageFunctional::kNumDraws * ImageWork();
+  return num_modes() * size * (size / 2 + 40) + functional_.num_draws() * ImageWork();
 }
 
 double ImageModel::ExpectedOfOne(const Coefficients& at) const {
@@ -129,7 +129,7 @@ Moments ImageModel::Predict(const Eigen::MatrixXd& points) const {
   const ModeMoments modes = outputs_.PredictModes(points);
   const surrogate::Predictions error = ReconstructionError(points);
   Moments moments{.mean = error.mean, .sd = Eigen::VectorXd(points.rows())};
-  ForEachPoint(points.rows(), 6 + ImageFunctional::kNumDraws, [&](Eigen::Index i) {
+  ForEachPoint(points.rows(), 6 + functional_.num_draws(), [&](Eigen::Index i) {
     const Coefficients at{modes.mean.row(i), modes.variance.row(i)};
     const double sd_of_draws = functional_.SdOfDraws(at);
     moments.mean[i] += functional_.Expected(at);
@@ -179,7 +179,7 @@ Eigen::VectorXd ImageModel::LogImprovement(const Eigen::MatrixXd& points, double
   const ModeMoments modes = outputs_.PredictModes(points);
   const surrogate::Predictions error = ReconstructionError(points);
   Eigen::VectorXd result(points.rows());
-  ForEachPoint(points.rows(), 1 + ImageFunctional::kNumDraws, [&](Eigen::Index i) {
+  ForEachPoint(points.rows(), 1 + functional_.num_draws(), [&](Eigen::Index i) {
     result[i] = LogImprovementAt(
         {modes.mean.row(i), modes.variance.row(i)},
         {.value = incumbent - error.mean[i], .noise = noise, .error_variance = error.variance[i]});

@@ -130,7 +130,7 @@ Answer PosteriorStrategy::Recommend() {
     answer.noise_sd = image->ObjectiveNoise(answer.point);
     const SobolIndices sobol = EstimateSobolIndices(
         [&](const Eigen::MatrixXd& points) { return image->Objective(points).mean; },
-        {.dimension = domain_.num_parameters, .num_base = 128, .seed = options_.seed});
+        {.dimension = domain_.num_parameters, .num_base = 512, .seed = options_.seed});
     answer.sobol_first = sobol.first;
     answer.sobol_total = sobol.total;
   }

@@ -75,6 +75,25 @@ TEST(LearnModelErrors, FindsHowFarTheRealTestIsFromEverySet) {
   EXPECT_NEAR(wide.value, 5, 2);
 }
 
+// What the data tell has a width of its own: nodes that follow the prior's scale stepped over it,
+// and a prior ten times as wide taught an error of 0.
+TEST(LearnModelErrors, AWiderPriorTeachesWhatTheDataTell) {
+  for (const double off : {0.0, 0.5}) {
+    std::vector<double> learnt;
+    for (const double scale : {1.0, 3.0, 10.0}) {
+      double mean = 0;
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        mean += Campaign{.off = off, .scale = scale, .seed = seed}.Learnt().value / 3;
+      }
+      learnt.push_back(mean);
+    }
+    // Its own posterior is skewed, so that a prior of 1 takes a fifth or so of it away.
+    EXPECT_GT(learnt[0], 0.1) << off;
+    EXPECT_NEAR(learnt[1] / learnt[0], 1.1, 0.35) << off;
+    EXPECT_NEAR(learnt[2] / learnt[1], 1, 0.15) << off;
+  }
+}
+
 TEST(LearnModelErrors, ASingleNumberThatSomeSetAlwaysMeetsLeavesThePriorAsItIs) {
   const ModelError learnt = Campaign{.num_numbers = 1}.Learnt();
   EXPECT_NEAR(learnt.value, 1, 0.15);  // the valley narrows at the ends of the ranges

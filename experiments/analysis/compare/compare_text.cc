@@ -141,8 +141,8 @@ std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
     any_unknown |= std::isnan(f.noise_sd);
     if (std::isnan(f.noise_sd)) continue;
     any_scatter |= f.noise_sd != 0;
-    text += (text.empty() ? "" : "; ") + f.info.title + " " + Shown(f, f.noise_sd, 2) + " " +
-            f.info.unit;
+    text += (text.empty() ? "" : "; ") + f.info.title + " " + Shown(f, f.noise_sd, 2) +
+            (f.info.unit.empty() ? "" : " ") + f.info.unit;
   }
   if (text.empty()) {
     return any_unknown ? "  Which sets tie is not known: no set was simulated twice.\n" : "";

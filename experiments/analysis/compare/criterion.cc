@@ -1,5 +1,7 @@
 #include "experiments/analysis/compare/criterion.h"
 
+#include <algorithm>
+
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -20,11 +22,16 @@ std::vector<Criterion> CriteriaOf(const Evidence& evidence) {
     for (const journal::ObjectiveInfo& objective : journal::kObjectives)
       criteria.push_back(CriterionOf(objective));
   }
+  const auto is_taken = [&](const std::string& title) {
+    return std::ranges::count(criteria, title, &Criterion::title) > 0;
+  };
   for (const journal::ScalarRecord& number : evidence.reference.numbers) {
+    const std::string title = MetricTitle(number.name);
     const ShownUnit unit = ShownUnitOf(rigs::UnitOfObservable(number.name));
     criteria.push_back({.key = number.name,
                         .metric = number.name,
-                        .title = MetricTitle(number.name),
+                        // An angle of repose may be one of the image, and measured, too.
+                        .title = is_taken(title) ? title + " (measured)" : title,
                         .unit = unit.text,
                         .per_unit = unit.per_unit,
                         .is_distance = true});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
@@ -10,14 +11,18 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 namespace {
 
+// To a width in characters, of which UTF-8 has one to four bytes.
 std::string Padded(std::string text, std::size_t width) {
-  if (text.size() < width) text.append(width - text.size(), ' ');
+  const auto size = static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  if (size < width) text.append(width - size, ' ');
   return text;
 }
 
@@ -54,7 +59,10 @@ std::string ParameterLines(const Answer& result) {
 
 // Of an objective that is the distance from the experiment's angle, not an angle.
 std::string DistanceUnit(const Answer& answer) {
-  return " " + answer.objective_unit + (MinimisesSad(answer) ? "" : " off");
+  const bool is_distance = std::ranges::any_of(journal::kObjectives, [&](const auto& info) {
+    return info.is_angle && info.ValueKey() == answer.objective;
+  });
+  return " " + answer.objective_unit + (is_distance ? " off" : "");
 }
 
 // "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images;
@@ -163,7 +171,7 @@ std::string ConfirmedLines(const Answer& answer) {
   for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
     const ResultCandidate& c = answer.confirmed[i];
     text += Padded("  " + NameOfCandidate(answer, i), 20) + "with " +
-            std::to_string(c.experiments.front().num_trials) + " fresh seeds at scale factor " +
+            base::Counted(c.experiments.front().num_trials, "fresh seed") + " at scale factor " +
             base::ShortNumber(c.scale_factor);
     if (i > 0) text += ": " + ValuesText(answer, c.values);
     for (const ResultConfirmed& e : c.experiments) {

@@ -32,6 +32,17 @@ constexpr std::string_view kMayChange[] = {"name",         "budget",  "goal",   
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
 
+// What is searched, and how.
+void ValidateSearch(const CampaignSpec& spec, base::Problems& problems) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  space.Validate(problems);
+  problems.Within("strategy", [&] {
+    spec.strategy.ValidateUse(true, problems);
+    spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(),
+                              problems);
+  });
+}
+
 }  // namespace
 
 void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
@@ -240,15 +251,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   PointToList(file.root, problems);
   base::TreeValidator(problems).Check(spec);
   RefuseIgnoredKeys(file, spec, problems);
-  if (problems.empty()) {
-    const optimizer::ParameterSpace space = SpaceOf(spec);
-    space.Validate(problems);
-    problems.Within("strategy", [&] {
-      spec.strategy.ValidateUse(true, problems);
-      spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(),
-                                problems);
-    });
-  }
+  if (problems.empty()) ValidateSearch(spec, problems);
   problems.ThrowIfAny();
   spec.coarse_graining.scale_factor = spec.coarse_graining.Levels().back();
   engine::ReadSizeFile(spec.powder.sizes);
@@ -262,6 +265,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
 
 void CheckSpec(const CampaignSpec& spec, base::Problems& problems) {
   base::TreeValidator(problems).Check(spec);
+  if (problems.empty()) ValidateSearch(spec, problems);
   if (problems.empty()) ValidateCases(spec, problems);
 }
 

@@ -63,6 +63,15 @@ double FillIn(const ExperimentSpec& e) {
                           "; give rig.fill or the powder's mass");
 }
 
+// A collapsed column lies beyond its own length, which is the width of its images.
+imaging::ExperimentOptions WithGround(const ExperimentSpec& e) {
+  imaging::ExperimentOptions images = e.images;
+  if (e.rig && e.rig->kind == rigs::RigKind::kColumnCollapse) {
+    images.ground = imaging::Ground::kFloor;
+  }
+  return images;
+}
+
 }  // namespace
 
 bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
@@ -106,7 +115,7 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
 }
 
 imaging::Experiment MeasureImages(const ExperimentSpec& e) {
-  if (!ShowsDrum(e)) return imaging::MeasureExperiment(e.images);
+  if (!ShowsDrum(e)) return imaging::MeasureExperiment(WithGround(e));
   imaging::Experiment experiment;
   experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
   if (ShowsAny(e)) MakeBinary(e.images.threshold.value(), experiment.aehp.image);

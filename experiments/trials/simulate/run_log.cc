@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "base/text/number_text.h"
 #include "base/text/printable.h"
 
 namespace talus::trials {
@@ -29,6 +30,7 @@ double Seconds(std::chrono::steady_clock::duration d) {
 }  // namespace
 
 std::string DurationText(double seconds) {
+  if (seconds > 0 && seconds < 1) return base::ShortNumber(seconds, 1) + " s";
   const auto s = static_cast<long long>(std::max(0.0, seconds) + 0.5);
   if (s < 100) return std::to_string(s) + " s";
   if (s < 6000) return std::to_string((s + 30) / 60) + " min";

@@ -265,6 +265,14 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   EXPECT_EQ(base::ReadFile(folder / "campaign.json"), kept);
 }
 
+TEST_F(AddExperimentTest, NothingIsAddedToASearchOfOneObjective) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 4}, "workers": 1,
+      "confirm": {"candidates": 0}, "strategy": {"kind": "bobyqa"})");
+  ASSERT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_THAT(ErrorIn([&] { Add(folder, Write(TwoExperiments::FastLift("23 mg"))); }),
+              HasSubstr("its strategy \"bobyqa\" minimises one objective"));
+}
+
 // It was to go on by the edited spec, though the test was refused.
 TEST_F(AddExperimentTest, WhatCannotBeAddedTakesNoEditedSpecOver) {
   const fs::path folder = Ended();
