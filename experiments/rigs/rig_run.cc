@@ -6,6 +6,7 @@
 #include "base/files/file.h"
 #include "engine/run/state_file.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/phased/camera.h"
 #include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/rig_list.h"
@@ -48,7 +49,7 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
   const std::vector<engine::Particle> grains = rig_->Grains();
   const double time = rig_->simulation().time();
   if (case_.outputs.vtp) {
-    base::WriteFileAtomically(folder_ / "heap.vtp", engine::VtpOf(grains, time));
+    base::WriteFileAtomically(folder_ / kHeapFile, engine::VtpOf(grains, time));
   }
   if (case_.outputs.csv) base::WriteFileAtomically(folder_ / "heap.csv", engine::CsvOf(grains));
   if (case_.rig.camera) {
@@ -56,7 +57,7 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
   } else if (case_.frame) {
     const imaging::Profile profile =
         imaging::ProjectHeap(SpheresOf(grains), *case_.frame, NumViewsOf(case_));
-    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(profile.image));
+    base::WriteFileAtomically(folder_ / kProfileFile, imaging::EncodePng(profile.image));
   }
   if (const auto picture = rig_->FromAbove(grains)) {
     base::WriteFileAtomically(folder_ / "from_above.png", imaging::EncodePng(*picture));
@@ -70,7 +71,7 @@ void RigRun::WritePictures() const {
   const auto write = [&](const std::string& file, const imaging::GrayImage& image) {
     base::WriteFileAtomically(folder_ / file, imaging::EncodePng(image));
   };
-  write("profile.png", pictures.profile);
+  write(kProfileFile, pictures.profile);
   write("profile_sd.png", pictures.standard_deviation);
   if (camera.num_pictures() == 1) return;
   const imaging::Profile film{.image = std::move(pictures.profile), .frame = ProfileFrameOf(case_)};

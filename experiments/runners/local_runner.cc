@@ -21,11 +21,11 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::runners {
 namespace {
 
-constexpr const char* kGroupFile = ".process_group";
 constexpr auto kLogInterval = std::chrono::seconds(1);  // between two looks at the logs' sizes
 constexpr double kLongest = 1e9;  // of any job [s]: a clock counts nanoseconds
 constexpr int kCannotRun = 127;   // exit status of the child that could not become the command
@@ -81,7 +81,7 @@ void EndGroup(pid_t group, const std::string& start) {
 
 // What an earlier, killed program has left running in this folder.
 void EndLeftOver(const std::filesystem::path& folder) {
-  std::ifstream in(folder / kGroupFile);
+  std::ifstream in(folder / rigs::kGroupFile);
   pid_t group = 0;
   std::string start;
   std::string mark;
@@ -96,7 +96,7 @@ void EndLeftOver(const std::filesystem::path& folder) {
 // it.
 void WriteGroup(const std::filesystem::path& folder, pid_t pid, const std::string& mark) {
   const std::string start = StateOf(std::to_string(pid)).start;
-  base::WriteFileAtomically(folder / kGroupFile,
+  base::WriteFileAtomically(folder / rigs::kGroupFile,
                             std::to_string(pid) + " " + start + " " + mark + "\n",
                             base::Outlives::kProgram);
 }
@@ -237,7 +237,7 @@ bool LocalRunner::Adopt(const Job& job, const std::string&) {
 void LocalRunner::StartProcess(const Job& job) {
   EndLeftOver(job.folder);
   const Gate gate;
-  const std::string log_name = (job.folder / "log.txt").string();
+  const std::string log_name = (job.folder / rigs::kLogFile).string();
   const int log = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (log < 0) base::ThrowUnwritten(log_name, errno);
 
@@ -308,7 +308,7 @@ void LocalRunner::StopOverdue(Clock::time_point now) {
   for (auto& [id, process] : running_) {
     if (process.stopped != JobEnd::kExit) continue;
     std::error_code absent;
-    const std::uintmax_t log = std::filesystem::file_size(process.folder / "log.txt", absent);
+    const std::uintmax_t log = std::filesystem::file_size(process.folder / rigs::kLogFile, absent);
     if (now >= process.deadline) {
       Stop(process, JobEnd::kTimeCap, "was stopped at its time cap");
     } else if (!absent && log > largest_log_) {
@@ -349,7 +349,7 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
   ::wait4(process.pid, &status, 0, &usage);
   ::close(process.pid_file);
   std::error_code ignored;
-  std::filesystem::remove(process.folder / kGroupFile, ignored);
+  std::filesystem::remove(process.folder / rigs::kGroupFile, ignored);
 
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text/printable.h"
 #include "base/text/shell_text.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::runners {
 namespace {
@@ -94,8 +95,8 @@ void AddEnd(std::ostream& out, const Batch& batch) {
       << "write_end() {\n"
       << "  cd \"$folder\" || return\n"  // the set-up may have gone elsewhere
       << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) $4 >"
-      << kTaskEndFile << ".part\n"
-      << "  mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
+      << rigs::kTaskEndPart << "\n"
+      << "  mv " << rigs::kTaskEndPart << ' ' << rigs::kTaskEndFile << "\n"
       << "}\n";
 }
 
@@ -172,7 +173,7 @@ std::optional<Batch> ParseBatch(const std::string& script) {
 }
 
 std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder) {
-  std::ifstream in(folder / kTaskEndFile);
+  std::ifstream in(folder / rigs::kTaskEndFile);
   TaskEnd end;
   std::string last;
   if (!(in >> end.batch >> end.task >> end.status >> end.duration >> end.cpu_time >> end.restarts >>

@@ -47,7 +47,6 @@ struct TaskEnd {
   int restarts = 0;        // times that Slurm has requeued it
   std::string host;
 };
-inline constexpr const char* kTaskEndFile = ".slurm_end";
 
 // Nothing when there is no such file (yet), or not a whole one.
 std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder);

@@ -15,6 +15,7 @@
 #include "base/text/name.h"
 #include "base/text/printable.h"
 #include "base/trimmed.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/runners/slurm_end.h"
 #include "experiments/runners/slurm_verdict.h"
 
@@ -123,7 +124,7 @@ void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
     task.index = static_cast<int>(batch.jobs.size());
     batch.jobs.push_back(task.job);
     std::error_code ignored;
-    fs::remove(task.job.folder / kTaskEndFile, ignored);
+    fs::remove(task.job.folder / rigs::kTaskEndFile, ignored);
   }
   base::WriteFileAtomically(records_.File(batch.number, ".sh"),
                             BatchScript(batch, options_, records_.File(batch.number, "")));

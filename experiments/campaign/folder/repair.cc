@@ -9,11 +9,11 @@
 #include "base/files/file.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::campaign {
 namespace {
 
-constexpr const char* kTrialFile = "trial.json";
 constexpr const char* kAehp = "aehp.png";
 constexpr const char* kAehpSd = "aehp_sd.png";
 
@@ -81,7 +81,7 @@ std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
   std::vector<journal::TrialRecord> trials;
   if (!std::filesystem::exists(folder.root / "trials")) return trials;
   for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
-    const std::filesystem::path file = entry.path() / kTrialFile;
+    const std::filesystem::path file = entry.path() / rigs::kTrialFile;
     // A folder without one was being made when the process ended: there is no such trial yet. An
     // empty one is all that a power cut has left.
     std::error_code absent;
@@ -129,7 +129,7 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
 
 void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) {
   std::filesystem::create_directories(folder.trial(trial.id));
-  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
+  base::WriteFileAtomically(folder.trial(trial.id) / rigs::kTrialFile, TextWithChecksum(trial),
                             base::Outlives::kProgram);
 }
 

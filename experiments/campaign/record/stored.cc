@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/rigs/case/run_files.h"
 #include "imaging/formats/images/image_file.h"
 #include "optimizer/space/point_rows.h"
 
@@ -86,7 +87,7 @@ std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,
   const std::string png = journal.ProfilePng(trial);
   try {
     if (!png.empty()) return imaging::DecodeGrayImage(png, "a profile of the journal");
-    return imaging::ReadGrayImage(folder.trial(trial) / "profile.png");
+    return imaging::ReadGrayImage(folder.trial(trial) / rigs::kProfileFile);
   } catch (const base::ConfigError&) {
     return std::nullopt;  // the trial then counts by its number alone
   }

@@ -12,6 +12,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/phased/rig.h"
 
 namespace talus::rigs {
@@ -91,7 +92,7 @@ void AddReadings(const std::vector<Reading>& readings, ordered_json& result) {
 // Where the picture is, and how it is to be read; of a film also the pictures one by one.
 ordered_json ProfileJson(const Case& c, const CameraMemory& camera) {
   ordered_json profile = base::ToJson(ProfileFrameOf(c));
-  profile["file"] = "profile.png";
+  profile["file"] = kProfileFile;
   profile["num_views"] = NumViewsOf(c);
   if (!c.rig.camera) return profile;
   profile["num_frames"] = camera.num_frames;

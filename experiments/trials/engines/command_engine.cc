@@ -17,6 +17,7 @@
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
@@ -36,13 +37,7 @@ namespace fs = std::filesystem;
 using base::Outlives;
 
 constexpr const char* kKind = "command";
-constexpr const char* kCaseFile = "case.json";
-// Left by the shell that runs the command, when it has ended well.
-constexpr const char* kDone = ".command_done";
 constexpr const char* kMpiLauncher = "mpirun";
-// The filled command, as a list.
-constexpr const char* kCommandFile = ".command.json";
-constexpr const char* kResultName = "result.json";
 
 struct Measured {
   std::vector<fs::path> files{};  // the command's
@@ -82,11 +77,11 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     }
     measured.profile =
         imaging::ProjectHeap(heap, *rig_case.frame, rigs::NumViewsOf(rig_case)).image;
-    base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
+    base::WriteFileAtomically(folder / rigs::kProfileFile, imaging::EncodePng(measured.profile),
                               Outlives::kProgram);
   }
-  if (file.filename() != "heap.vtp") {
-    base::WriteFileAtomically(folder / "heap.vtp", engine::VtpOf(ParticlesOf(heap), 0),
+  if (file.filename() != rigs::kHeapFile) {
+    base::WriteFileAtomically(folder / rigs::kHeapFile, engine::VtpOf(ParticlesOf(heap), 0),
                               Outlives::kProgram);
   }
   if (on_plate) measured.scalars = TubeNumbersOf(rig_case, plate, heap);
@@ -107,15 +102,16 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
                       std::to_string(measured.profile.height) + " px; the experiment's is " +
                       std::to_string(frame.width) + " x " + std::to_string(frame.height));
   }
-  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
+  base::WriteFileAtomically(folder / rigs::kProfileFile, imaging::EncodePng(measured.profile),
                             Outlives::kProgram);
   return measured;
 }
 
 // The file that was measured here before, if any: a copied folder has other times of its files.
 std::optional<fs::path> FormerlyMeasured(const CommandOptions& options, const fs::path& folder) {
-  if (!fs::exists(folder / kResultName)) return std::nullopt;
-  const auto result = nlohmann::json::parse(base::ReadFile(folder / kResultName), nullptr, false);
+  if (!fs::exists(folder / rigs::kResultFile)) return std::nullopt;
+  const auto result =
+      nlohmann::json::parse(base::ReadFile(folder / rigs::kResultFile), nullptr, false);
   if (!result.is_object() || !result.contains("measured")) return std::nullopt;
   for (const auto& [name, checksum] : result["measured"].items()) {
     if (IsResultName(options, name) && fs::exists(folder / name)) return folder / name;
@@ -125,7 +121,7 @@ std::optional<fs::path> FormerlyMeasured(const CommandOptions& options, const fs
 
 fs::path ResultOf(const CommandOptions& options, const fs::path& folder) {
   const auto former = FormerlyMeasured(options, folder);
-  return former ? *former : FindResult(options, folder, kCommandFile);
+  return former ? *former : FindResult(options, folder, rigs::kCommandFile);
 }
 
 // Without a frame numbers are enough, and most likely what was meant.
@@ -174,9 +170,10 @@ nlohmann::ordered_json ChecksumsOf(const std::vector<fs::path>& files, const fs:
 
 // Whether the folder holds what was measured there, if it has been measured at all.
 bool IsAsMeasured(const fs::path& folder) {
-  if (!fs::exists(folder / kResultName)) return true;
+  if (!fs::exists(folder / rigs::kResultFile)) return true;
   try {
-    const auto text = base::CheckedText(base::ReadFile(folder / kResultName), kResultName);
+    const auto text =
+        base::CheckedText(base::ReadFile(folder / rigs::kResultFile), rigs::kResultFile);
     if (!text) return false;
     const auto result = nlohmann::json::parse(*text, nullptr, false);
     if (!result.is_object() || !result.contains("measured")) return true;
@@ -210,7 +207,7 @@ std::string ResultText(const rigs::Case& rig_case, const Measured& measured,
   }
   if (rig_case.frame) {
     result["profile"] = base::ToJson(*rig_case.frame);
-    result["profile"]["file"] = "profile.png";
+    result["profile"]["file"] = rigs::kProfileFile;
     result["profile"]["num_views"] = rigs::NumViewsOf(rig_case);
   }
   return base::WithChecksum(base::JsonText(result, 2) + "\n");
@@ -275,14 +272,14 @@ CommandEngine::CommandEngine(const CommandOptions& options, FormerFiles former)
 void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
   const std::string key = CaseText({.heap = rig_case, .engine = options_});
   if (former_ == FormerFiles::kRemove) {
-    PrepareFolder(folder, kCaseFile, key);
-  } else if (!HoldsKey(folder, kCaseFile, key)) {
+    PrepareFolder(folder, rigs::kCaseFile, key);
+  } else if (!HoldsKey(folder, rigs::kCaseFile, key)) {
     Forget(folder);
-    for (const char* own : {"heap.vtp", "profile.png"}) fs::remove(folder / own);
-    base::WriteFileAtomically(folder / kCaseFile, key, Outlives::kProgram);
+    for (const char* own : {rigs::kHeapFile, rigs::kProfileFile}) fs::remove(folder / own);
+    base::WriteFileAtomically(folder / rigs::kCaseFile, key, Outlives::kProgram);
   }
   if (IsComplete(folder)) return;
-  for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
+  for (const char* ended : {rigs::kCommandDone, rigs::kResultFile}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
   RemoveScalars(folder);
   if (former_ == FormerFiles::kRemove) RemoveFormer(folder);
@@ -294,11 +291,12 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
     filled.insert(filled.begin(), {kMpiLauncher, "-np", values.scalars["ranks"]});
   }
   const nlohmann::json command = filled;
-  base::WriteFileAtomically(folder / kCommandFile, base::JsonText(command), Outlives::kProgram);
+  base::WriteFileAtomically(folder / rigs::kCommandFile, base::JsonText(command),
+                            Outlives::kProgram);
 }
 
 bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folder) {
-  return HoldsKey(folder, kCaseFile, CaseText({.heap = rig_case, .engine = options_})) &&
+  return HoldsKey(folder, rigs::kCaseFile, CaseText({.heap = rig_case, .engine = options_})) &&
          HasPrepared(folder);
 }
 
@@ -306,7 +304,7 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   // The mark tells a result that is whole from one that a kill has left half written. What the
   // command took is put into it, where there is room. 127 is the shell's word for a command that is
   // not there, which ends the campaign; of one that is there it is a failure as any other.
-  const std::string mark = kDone;
+  const std::string mark = rigs::kCommandDone;
   std::vector<std::string> command{
       "/bin/sh", "-c",
       "\"$@\" || { s=$?; [ $s = 127 ] && command -v \"$1\" >/dev/null && "
@@ -314,10 +312,11 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
       ": >" +
           mark + " || exit; LC_ALL=C; times >>" + mark + " || :",
       "sh"};
-  const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile), nullptr, false);
+  const auto filled =
+      nlohmann::json::parse(base::ReadFile(folder / rigs::kCommandFile), nullptr, false);
   for (const auto& argument : filled) {
     if (!argument.is_string()) {
-      throw base::Error((folder / kCommandFile).string() + ": is damaged; remove the folder");
+      throw base::Error((folder / rigs::kCommandFile).string() + ": is damaged; remove the folder");
     }
     command.push_back(argument.get<std::string>());
   }
@@ -325,24 +324,24 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
 }
 
 bool CommandEngine::HasPrepared(const fs::path& folder) {
-  return fs::exists(folder / kCommandFile);
+  return fs::exists(folder / rigs::kCommandFile);
 }
 
-void CommandEngine::Forget(const fs::path& folder) { fs::remove(folder / kDone); }
+void CommandEngine::Forget(const fs::path& folder) { fs::remove(folder / rigs::kCommandDone); }
 
 bool CommandEngine::IsComplete(const fs::path& folder) {
-  return fs::exists(folder / kDone) && IsAsMeasured(folder);
+  return fs::exists(folder / rigs::kCommandDone) && IsAsMeasured(folder);
 }
 
 TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& folder) {
   const Measured measured = MeasureResult(options_, rig_case, folder);
-  base::WriteFileAtomically(folder / kResultName, ResultText(rig_case, measured, folder),
+  base::WriteFileAtomically(folder / rigs::kResultFile, ResultText(rig_case, measured, folder),
                             Outlives::kProgram);
   return {.profile = measured.profile,
           .num_steps = 0,
           .num_particles = static_cast<std::int64_t>(measured.num_spheres),
           .scalars = measured.scalars,
-          .cpu_time = CpuTimeOf(folder / kDone),
+          .cpu_time = CpuTimeOf(folder / rigs::kCommandDone),
           .note = {},
           .doubt = measured.doubt};
 }
@@ -350,7 +349,7 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
 std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case,
                                                       const fs::path& from) {
-  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / kCaseFile));
+  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / rigs::kCaseFile));
   if (auto difference = rigs::RunDifference(made.heap, rig_case)) return difference;
   const auto engines = base::JsonChanges(EngineJson(made.engine), EngineJson(options_));
   if (!engines.empty() && engines.front().path == "templates_hash") {
@@ -376,7 +375,7 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
 bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
   if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
-  base::WriteFileAtomically(to / kCaseFile, CaseText({.heap = rig_case, .engine = options_}));
+  base::WriteFileAtomically(to / rigs::kCaseFile, CaseText({.heap = rig_case, .engine = options_}));
   return true;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "experiments/rigs/case/run_files.h"
+
 namespace talus::trials {
 namespace {
 
@@ -22,9 +24,9 @@ void CommandOptions::Validate(base::Problems& problems) const {
                    "\"in.heap\"]");
   problems.Require(IsInside(result), "result",
                    "must be a file in the trial's folder, such as \"heap.*\"");
-  for (const char* own : {"case.json", "result.json", "log.txt", "trial.json", "profile.png"}) {
-    problems.Require(::fnmatch(result.c_str(), own, FNM_PERIOD) != 0, "result",
-                     std::string("fits ") + own +
+  for (const std::string_view own : rigs::kNeverAResult) {
+    problems.Require(::fnmatch(result.c_str(), std::string(own).c_str(), FNM_PERIOD) != 0, "result",
+                     "fits " + std::string(own) +
                          ", which talus itself writes there; name the result more closely, such as "
                          "\"heap.*\"");
   }

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/trial_engine.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -17,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // Written by ourselves beside a result of another format, for ParaView.
-constexpr const char* kOwnHeap = "heap.vtp";
 
 std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& folder) {
   const fs::path pattern = folder / engine.result;
@@ -73,7 +73,7 @@ fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const 
     std::erase_if(matches, [&](const fs::path& path) { return fs::last_write_time(path) < start; });
   }
   if (matches.size() > 1) {
-    std::erase_if(matches, [](const fs::path& path) { return path.filename() == kOwnHeap; });
+    std::erase_if(matches, [](const fs::path& path) { return path.filename() == rigs::kHeapFile; });
   }
   if (!matches.empty()) return matches.back();
   const std::string log = LastLogLines(folder);
@@ -96,7 +96,7 @@ void RemoveFormer(const fs::path& folder) {
   std::vector<fs::path> former;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename();
-    if (name != "case.json" && name != "trial.json" && !name.starts_with('.')) {
+    if (name != rigs::kCaseFile && name != rigs::kTrialFile && !name.starts_with('.')) {
       former.push_back(entry.path());
     }
   }
@@ -109,7 +109,7 @@ void RemoveFormer(const fs::path& folder) {
 
 bool HasLeftHeapVtp(const CommandOptions& engine, const fs::path& folder) {
   const std::vector<fs::path> matches = Matches(engine, folder);
-  return matches.size() == 1 && matches.front().filename() == kOwnHeap;
+  return matches.size() == 1 && matches.front().filename() == rigs::kHeapFile;
 }
 
 std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
@@ -143,8 +143,9 @@ std::vector<base::Sphere> ShownOf(const rigs::Case& rig_case, std::vector<base::
 std::vector<base::Sphere> HeapOfTrial(const fs::path& folder) {
   const fs::path rig_case = folder / "case.json";
   const auto engine = fs::exists(rig_case) ? EngineOfCase(rig_case) : std::nullopt;
-  if (!engine || !HasLeftHeapVtp(*engine, folder)) return imaging::ReadSpheres(folder / kOwnHeap);
-  return ShownOf(LoadAnyCase(rig_case), ReadOnOurPlate(*engine, folder / kOwnHeap));
+  if (!engine || !HasLeftHeapVtp(*engine, folder))
+    return imaging::ReadSpheres(folder / rigs::kHeapFile);
+  return ShownOf(LoadAnyCase(rig_case), ReadOnOurPlate(*engine, folder / rigs::kHeapFile));
 }
 
 }  // namespace talus::trials

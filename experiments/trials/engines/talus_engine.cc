@@ -12,6 +12,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/observable.h"
 #include "imaging/formats/images/image_file.h"
@@ -48,16 +49,16 @@ double CpuTimeOf(const nlohmann::json& result) {
 // The finished run's grains in the frame.
 void DrawHeap(const rigs::Case& rig_case, const std::filesystem::path& folder,
               nlohmann::ordered_json& result) {
-  std::filesystem::remove(folder / "profile.png");
+  std::filesystem::remove(folder / rigs::kProfileFile);
   result.erase("profile");
   if (!rig_case.frame) return;
   const int num_views = rigs::NumViewsOf(rig_case);
-  const auto grains = imaging::ReadSpheres(folder / "heap.vtp", {});
+  const auto grains = imaging::ReadSpheres(folder / rigs::kHeapFile, {});
   base::WriteFileAtomically(
-      folder / "profile.png",
+      folder / rigs::kProfileFile,
       imaging::EncodePng(imaging::ProjectHeap(grains, *rig_case.frame, num_views).image));
   result["profile"] = base::ToJson(*rig_case.frame);
-  result["profile"]["file"] = "profile.png";
+  result["profile"]["file"] = rigs::kProfileFile;
   result["profile"]["num_views"] = num_views;
 }
 
@@ -129,7 +130,7 @@ TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesyst
                      .cpu_time = CpuTimeOf(result),
                      .note = reason};
   if (!rig_case.frame) return output;
-  output.profile = imaging::ReadGrayImage(folder / "profile.png");
+  output.profile = imaging::ReadGrayImage(folder / rigs::kProfileFile);
   const imaging::Frame frame = rigs::ProfileFrameOf(rig_case);
   if (output.profile.width != frame.width || output.profile.height != frame.height) {
     throw base::Error("left a profile.png of another size than the experiment's");
@@ -146,7 +147,7 @@ std::optional<std::string> TalusEngine::WhyNotTaken(const rigs::Case& rig_case,
   if (rig_case.rig.camera && rig_case.frame != made.frame) {
     return "its pictures were taken in another frame, and cannot be drawn anew";
   }
-  if (!rig_case.rig.camera && !std::filesystem::exists(from / "heap.vtp")) {
+  if (!rig_case.rig.camera && !std::filesystem::exists(from / rigs::kHeapFile)) {
     return "its heap.vtp is not there, from which it would be drawn anew";
   }
   return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 
@@ -16,11 +17,12 @@ namespace fs = std::filesystem;
 
 // Names in a file of a trial's folder that a template may not have.
 bool IsReserved(const fs::path& path) {
-  static constexpr std::string_view kOwn[] = {"case.json",     "result.json",    "log.txt",
-                                              "trial.json",    "profile.png",    "heap.vtp",
-                                              ".command.json", ".command_done",  ".process_group",
-                                              ".slurm_end",    ".slurm_end.part"};
-  return std::find(std::begin(kOwn), std::end(kOwn), path.string()) != std::end(kOwn);
+  static constexpr std::string_view kOfCommand[] = {rigs::kHeapFile, rigs::kCommandFile,
+                                                    rigs::kCommandDone};
+  const auto is_in = [&](const auto& names) {
+    return std::ranges::find(names, path.string()) != std::end(names);
+  };
+  return is_in(rigs::kNeverAResult) || is_in(rigs::kFilesOfCampaign) || is_in(kOfCommand);
 }
 
 // The parts of the command as templates; `{{` in one of them is as in a file.

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text/printable.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::trials {
 namespace {
@@ -57,7 +58,7 @@ void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& 
 std::string LastLogLines(const std::filesystem::path& folder) {
   constexpr std::size_t kMostBytes = 600;
   constexpr int kMostLines = 3;
-  std::string text = base::ReadTail(folder / "log.txt", 4 * kMostBytes);
+  std::string text = base::ReadTail(folder / rigs::kLogFile, 4 * kMostBytes);
   text.erase(text.find_last_not_of(" \n\r\t") + 1);
   std::size_t start = text.size();
   for (int line = 0; line < kMostLines && start != std::string::npos; ++line) {

@@ -18,6 +18,7 @@
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
 #include "base/version.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/simulate/run_lock.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -27,7 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.bin";
-constexpr const char* kResult = "result.json";
 
 double CpuTime() {
   rusage usage{};
@@ -54,8 +54,9 @@ class Stopwatch {
 };
 
 std::optional<nlohmann::json> ResultIn(const fs::path& folder) {
-  if (!fs::exists(folder / kResult)) return std::nullopt;
-  const auto result = nlohmann::json::parse(base::ReadFile(folder / kResult), nullptr, false);
+  if (!fs::exists(folder / rigs::kResultFile)) return std::nullopt;
+  const auto result =
+      nlohmann::json::parse(base::ReadFile(folder / rigs::kResultFile), nullptr, false);
   if (!result.is_object()) return std::nullopt;
   return result;
 }
@@ -72,7 +73,8 @@ bool IsDone(const RunJob& job, const fs::path& folder) {
   if (base::TextAt(*result, "input_hash") != base::Hex(job.input_hash)) {
     RefuseFolder(folder, "result");
   }
-  return base::TextAt(*result, "status") == "ok" && base::IfWhole(base::ReadFile(folder / kResult));
+  return base::TextAt(*result, "status") == "ok" &&
+         base::IfWhole(base::ReadFile(folder / rigs::kResultFile));
 }
 
 struct Started {
@@ -114,8 +116,7 @@ void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
   if (base::IsOutputFolder(folder, kCommand)) return;
   if (fs::is_regular_file(input, absent) && base::ReadFile(input) == job.input) return;
   // What a campaign has put into a trial's folder, and the user's own input.
-  std::vector<std::string_view> mine{"log.txt", "trial.json", ".process_group", ".slurm_end",
-                                     ".slurm_end.part"};
+  std::vector<std::string_view> mine(rigs::kFilesOfCampaign.begin(), rigs::kFilesOfCampaign.end());
   const std::string source = job.source.filename();
   if (fs::equivalent(folder / source, job.source, absent)) mine.push_back(source);
   if (base::HoldsOnly(folder, mine)) return;
@@ -126,8 +127,9 @@ void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
 
 // "heap.vtp", "state_0001.vtp", "profile_2.png".
 bool IsWrittenByRuns(const fs::path& file) {
-  constexpr std::array kNames{"heap.vtp",  "heap.csv",  "profile.png", "from_above.png", "film.gif",
-                              "final.vtp", "final.csv", "series.csv",  kCheckpoint};
+  constexpr std::array kNames{rigs::kHeapFile,  "heap.csv",   rigs::kProfileFile,
+                              "from_above.png", "film.gif",   "final.vtp",
+                              "final.csv",      "series.csv", kCheckpoint};
   const std::string name = file.filename();
   if (std::ranges::find(kNames, name) != kNames.end()) return true;
   const fs::path ending = file.extension();
@@ -141,7 +143,7 @@ bool IsHalfWritten(const fs::path& file) {
   constexpr std::string_view kMark = ".tmp";
   const std::string ending = file.extension();
   const fs::path whole = file.stem();
-  return (IsWrittenByRuns(whole) || whole == kResult) && ending.starts_with(kMark) &&
+  return (IsWrittenByRuns(whole) || whole == rigs::kResultFile) && ending.starts_with(kMark) &&
          ending.size() > kMark.size() &&
          std::all_of(ending.begin() + kMark.size(), ending.end(),
                      [](unsigned char c) { return std::isdigit(c); });
@@ -163,7 +165,7 @@ void PrepareFolder(const RunJob& job, const fs::path& folder, bool anew) {
   base::WriteFileAtomically(folder / ".talus", std::string(kCommand) + "\n",
                             base::Outlives::kProgram);
   std::error_code absent;
-  fs::remove(folder / kResult, absent);
+  fs::remove(folder / rigs::kResultFile, absent);
   const fs::path input = folder / job.input_name;
   const bool same = fs::equivalent(input, job.source, absent);  // the user's own is left as it is
   if (!same) base::WriteFileAtomically(input, job.input);
@@ -179,7 +181,8 @@ void WriteFailure(const RunJob& job, const fs::path& folder, const std::string& 
   result["input_hash"] = base::Hex(job.input_hash);
   result["timing"] = {{"wall_time_s", watch.Total().wall_time},
                       {"cpu_time_s", watch.Total().cpu_time}};
-  base::WriteFileAtomically(folder / kResult, base::WithChecksum(base::JsonText(result, 2) + "\n"));
+  base::WriteFileAtomically(folder / rigs::kResultFile,
+                            base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 
 void Report(engine::Run& run, RunLog& log) {

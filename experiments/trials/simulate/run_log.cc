@@ -9,6 +9,7 @@
 
 #include "base/text/number_text.h"
 #include "base/text/printable.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::trials {
 namespace {
@@ -39,7 +40,7 @@ std::string DurationText(double seconds) {
 
 RunLog::RunLog(const std::filesystem::path& folder, bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDOUT_FILENO) == 1) {
-  const std::filesystem::path path = folder / "log.txt";
+  const std::filesystem::path path = folder / rigs::kLogFile;
   if (!IsStandardOutput(path)) file_.open(path, std::ios::app);
 }
 
