@@ -218,10 +218,13 @@ bool AskAgain(SpecAnswers& answers) {
     if (!IsAsked(question, answers)) continue;
     answers.*question.answer = Ask(question, answers.*question.answer);
   }
-  if (!answers.tests.empty() &&
-      !AskLine("the further tests (Enter: as they are; no: ask again)").empty()) {
+  while (!answers.tests.empty()) {
+    const std::string answer = AskLine("the further tests (Enter: as they are; no: ask again)");
+    if (answer.empty()) break;
+    if (answer != "no" && answer != "n") continue;
     answers.tests.clear();
     AskTests(answers);
+    break;
   }
   return static_cast<bool>(std::cin);
 }

@@ -10,6 +10,7 @@
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/problems.h"
+#include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/app/bench_questions.h"
@@ -163,7 +164,7 @@ std::string SpecOf(campaign::SpecAnswers& answers, const std::filesystem::path& 
     } catch (const base::ConfigError& error) {
       if (!AsksOnTerminal()) throw;
       std::cerr << error.what() << "\nonce more, from the beginning; Enter keeps an answer\n";
-      if (!AskAgain(answers)) throw;
+      if (!AskAgain(answers)) return CheckedSpec(answers, out);  // by what is answered now
     }
   }
 }
@@ -181,6 +182,9 @@ void Init(InitArguments& arguments) {
   if (arguments.photos.empty() && AsksOnTerminal()) AskForPhotographs(arguments);
   campaign::SpecAnswers answers = arguments.answers;
   answers.name = NameOf(arguments);
+  base::Problems problems;
+  base::RequireName(problems, "--name", answers.name);
+  problems.ThrowIfAny();
   for (const std::string& test : arguments.tests) {
     answers.tests.push_back(campaign::ParseDraftTest(test));
   }

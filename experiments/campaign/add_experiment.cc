@@ -1,7 +1,10 @@
 #include "experiments/campaign/add_experiment.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
@@ -46,6 +49,16 @@ void RequireSeveral(const CampaignSpec& before, const std::filesystem::path& fol
                           "campaign of both tests, with strategy.kind \"auto\"");
 }
 
+// Also where the same command was killed when it had recorded the test.
+void RequireNew(const CampaignSpec& before, const std::string& name,
+                const std::filesystem::path& folder) {
+  const std::vector<ExperimentSpec> all = ExperimentsOf(before);
+  if (std::ranges::none_of(all, [&](const ExperimentSpec& e) { return e.name == name; })) return;
+  throw base::ConfigError(folder.string() + ": has a test \"" + name +
+                          "\" already; `talus resume " + base::ShellWord(folder.string()) +
+                          "` goes on with it, or give the new one another name");
+}
+
 // Reports problems under the keys of the test's own file.
 void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
            const std::filesystem::path& file) {
@@ -79,6 +92,7 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   const auto experiment = ReadExperiment(file);
   OpenedCampaign opened = OpenCampaign(folder, {}, console, [&](const CampaignSpec& before) {
     RequireSeveral(before, folder);
+    RequireNew(before, experiment.name, folder);
     Check(before, experiment, file);
   });
   CampaignSpec spec = SpecWith(opened.spec, experiment);

@@ -20,6 +20,9 @@ constexpr double kLeastShare = 0.4;     // of an edge / the picture's contrast, 
 constexpr double kNoise = 16;           // a lower step may be the camera's noise [grey levels]
 constexpr int kShortestEdge = 3;        // length over which an edge is looked for [px]
 constexpr double kEdgeShare = 0.005;    // the same / shorter side: large pictures are blurred more
+constexpr int kLongestEdge = 5;         // lengths that a blurred edge may have
+constexpr double kStillRising = 1;      // from pixel to pixel of one edge [grey levels]
+constexpr double kMarch = 0.25;         // in which half-way is looked for [px]
 constexpr double kOnCircle = 0.01;      // how far a point may lie off the circle / its radius
 constexpr double kLeastOn = 0.5;        // share of the rays whose point lies on it
 constexpr double kMostBeyond = 0.01;    // how far it may reach out of the picture / its radius
@@ -56,11 +59,16 @@ std::optional<Point> OutermostEdge(const GrayImage& photo, double angle, const E
   const double reach = std::min(x0 / std::max(std::abs(c), 1e-9), y0 / std::max(std::abs(s), 1e-9));
   for (double way = reach - 1; way > edge.length; way -= 1) {
     const double outside = level(way);
-    const double inside = level(way - edge.length);
-    if (std::abs(inside - outside) < edge.least_step) continue;
-    const double half = (inside + outside) / 2;
+    const auto step = [&](double to) { return std::abs(level(to) - outside); };
+    double to = way - edge.length;
+    if (step(to) < edge.least_step) continue;
+    // A blurred edge goes on inwards, and half-way is half of all of it.
+    const double farthest = std::max(1.0, way - kLongestEdge * edge.length);
+    while (to > farthest && step(to - 1) > step(to) + kStillRising) to -= 1;
+    const double half = (level(to) + outside) / 2;
     double at = way;
-    while (at > way - edge.length && (level(at) > half) == (outside > half)) at -= 0.25;
+    while (at > to && (level(at) > half) == (outside > half)) at -= kMarch;
+    at += kMarch / 2;
     return Point{.x = x0 + at * c, .y = y0 + at * s};
   }
   return std::nullopt;

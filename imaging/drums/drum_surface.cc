@@ -12,11 +12,15 @@ constexpr double kFringe = 0.02;          // share of the powder beyond the bed'
 constexpr std::size_t kFewestPoints = 8;  // of a line
 
 // The powder of each column [px], in the disc.
+// From half-way on: a sum of grey levels would take half of the camera's noise on light for powder,
+// as a map has no level beyond white.
+bool IsPowder(std::uint8_t level) { return level < 128; }
+
 std::vector<double> ColumnPowder(const GrayImage& image) {
   std::vector<double> powder(static_cast<std::size_t>(image.width), 0.0);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      powder[static_cast<std::size_t>(x)] += (255 - image.at(x, y)) / 255.0;
+      powder[static_cast<std::size_t>(x)] += IsPowder(image.at(x, y)) ? 1 : 0;
     }
   }
   return powder;
@@ -104,7 +108,7 @@ DrumSurface MeasureSurface(const DrumMap& map) {
       const double r = std::hypot(x + 0.5 - map.circle.center_x, y + 0.5 - map.circle.center_y);
       if (r > map.inner_radius) continue;
       pixels += 1;
-      total += (255 - map.image.at(x, y)) / 255.0;
+      total += IsPowder(map.image.at(x, y)) ? 1 : 0;
     }
   }
   surface.fill.value = WholeFill(total / pixels, map.inner_radius / map.drum_radius);

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
+#include "imaging/drums/drum_circle.h"
 #include "imaging/drums/drum_overlay.h"
 #include "imaging/formats/images/image_file.h"
 #include "tests/error_in.h"
@@ -130,6 +132,46 @@ TEST(Drum, ALargeBlurredPhotographIsRead) {
 }
 
 // Light 72, ring 14 and surroundings 68, in place of 240, 15 and 170.
+// Three means over 5 × 5 pixels: a blur of 2.4 px.
+GrayImage Blurred(GrayImage image) {
+  for (int pass = 0; pass < 3; ++pass) {
+    const GrayImage before = image;
+    for (int y = 2; y < image.height - 2; ++y) {
+      for (int x = 2; x < image.width - 2; ++x) {
+        double sum = 0;
+        for (int i = 0; i < 25; ++i) sum += before.at(x + i % 5 - 2, y + i / 5 - 2);
+        image.at(x, y) = static_cast<std::uint8_t>(sum / 25 + 0.5);
+      }
+    }
+  }
+  return image;
+}
+
+// The outer end of a blurred edge was taken for its middle: 1.3 px too wide.
+TEST(Drum, ABlurredRingIsAsWideAsASharpOne) {
+  GrayImage photo = Draw({});
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {  // a ring of 15 px
+      const double r = std::hypot(x + 0.5 - kCenterX, y + 0.5 - kCenterY);
+      if (r < kRadius - 3 && r > kRadius - 15) photo.at(x, y) = 15;
+    }
+  }
+  EXPECT_NEAR(FindDrumCircle(photo, "sharp").radius, kRadius, 0.2);
+  EXPECT_NEAR(FindDrumCircle(Blurred(photo), "blurred").radius, kRadius, 0.6);
+}
+
+// Half of the noise on light counted as powder: 0.007 of the drum.
+TEST(Drum, TheCamerasNoiseIsNoPowder) {
+  GrayImage photo = Draw({});
+  base::Random random(1, 2);
+  for (std::uint8_t& level : photo.pixels) {
+    const double noisy = level + 5 * random.Normal();
+    level = static_cast<std::uint8_t>(std::clamp(noisy, 0.0, 255.0) + 0.5);
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("noisy", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.surface.fill.value, Segment(0.2), 0.004);
+}
+
 TEST(Drum, ADimPhotographIsRead) {
   GrayImage photo = Draw({.angle = 33 * kDegree});
   for (std::uint8_t& level : photo.pixels) {

@@ -7,6 +7,7 @@
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/text/shell_text.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
@@ -24,6 +25,15 @@ namespace {
 int SimulateFirst(const std::filesystem::path& campaign) {
   const std::optional<campaign::Answer> answer = campaign::StandingAnswer(campaign);
   return answer && campaign::AsksForSimulations(*answer) ? campaign::MoreSimulations(*answer) : 0;
+}
+
+std::string WordsOf(const AdviceRequest& request) {
+  std::string words;
+  if (!request.candidates.empty()) words += " " + base::ShellWord(request.candidates.string());
+  if (!request.goal) return words;
+  words += " --for " + base::ShellWord(request.goal->file.string());
+  if (request.goal->observable.empty()) return words;
+  return words + " --observable " + base::ShellWord(request.goal->observable);
 }
 
 }  // namespace
@@ -54,6 +64,7 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
              .parts = campaign::MakeParts(view.spec, folder),
              .goal = std::move(goal)});
   table.simulate_first = SimulateFirst(view.folder.root);
+  table.asked = WordsOf(request);
   table.has_simulated = request.simulate;
   if (base::MayWriteInto(folder)) {  // of somebody else's campaign the table is shown only
     std::filesystem::create_directories(folder);

@@ -81,6 +81,8 @@ struct NextTable {
   std::optional<NextGoal> goal{};  // none: the parameters themselves
   // More simulations that the campaign's alarms ask for before anything else; 0: none.
   int simulate_first = 0;
+  // Candidates and prediction that were asked for, as words of the command: " tests.json --for a".
+  std::string asked{};
   bool has_simulated = false;               // the designs of tests, as far as the budget went
   std::vector<NextCandidate> candidates{};  // in the order of Rank
 };

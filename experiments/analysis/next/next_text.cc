@@ -144,16 +144,17 @@ std::string CheapestText(const NextTable& table) {
   // A whole half minute more, so that an estimate that is a little short still pays for it.
   const double budget = 30 * std::ceil(1.2 * cheapest->core_time_to_judge / 30);
   return "the cheapest, " + cheapest->name + ", takes about " +
-         trials::DurationText(cheapest->core_time_to_judge) +
-         " of core time (`talus next DIR --simulate --budget \"" + ShortNumber(budget) + " s\"`";
+         trials::DurationText(cheapest->core_time_to_judge) + " of core time (`talus next DIR" +
+         table.asked + " --simulate --budget \"" + ShortNumber(budget) + " s\"`";
 }
 
 // Of what stands as "?".
 std::string UnknownText(const NextTable& table) {
   const std::string cheapest = table.has_simulated ? CheapestText(table) : "";
   if (cheapest.empty()) {
-    return "?: `talus next DIR --simulate` runs the few simulations that tell what a test would "
-           "teach, `--budget` says in how much core time\n";
+    return "?: `talus next DIR" + table.asked +
+           " --simulate` runs the few simulations that tell what a test would teach, `--budget` "
+           "says in how much core time\n";
   }
   return "?: the core time was too short for it; " + cheapest + ")\n";
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text/joined.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/record/stored.h"
@@ -93,8 +94,10 @@ std::unique_ptr<optimizer::PosteriorStrategy> AnsweringStrategy(const JointView&
   auto strategy = StrategyOf(view, view.Answered());
   if (strategy->CanModel()) return strategy;
   throw base::Error(view.folder.root.string() +
-                    ": has too few trials of each experiment for a posterior; go on with "
-                    "`talus resume`");
+                    ": has too few trials of each experiment for a posterior; go on with `talus "
+                    "resume " +
+                    base::ShellWord(view.folder.root.string()) +
+                    "`, and --add-simulations 20 where it has ended");
 }
 
 PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& strategy,

@@ -107,7 +107,8 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
     const double passed = MassOf(below);
     std::vector<Reading> all{{Observable::kMassFallen, passed},
                              {Observable::kMassLeft, FilledMass() - passed}};
-    for (Reading& reading : FlowReadings(memory().flow, passed, "nothing ran through the slot")) {
+    for (Reading& reading : FlowReadings(memory().flow, passed, FilledMass(),
+                                         "less than a tenth ran through the slot")) {
       all.push_back(std::move(reading));
     }
     const double foot = MassQuantile(below, 0.98, [](const auto& p) { return p.position.x; });

@@ -17,7 +17,6 @@ namespace talus::rigs {
 namespace {
 
 constexpr const char* kDischarging = "discharging";
-constexpr double kFlowing = 0.1;  // of the powder that must run out
 
 // The cone's height [m]; 0 of a flat floor.
 double ConeHeight(const OrificeFlowOptions& options) {
@@ -118,10 +117,9 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double filled = FilledMass();
     const double passed = MassBelow(grains);
-    const bool flows = passed > kFlowing * filled;
+    const bool flows = HasFlowed(passed, filled);
     std::vector<Reading> all =
-        FlowReadings(memory().flow, flows ? passed : 0, "an arch stands above the orifice");
-    if (!flows) all[1] = {Observable::kDischargeRate, 0};
+        FlowReadings(memory().flow, passed, filled, "an arch stands above the orifice");
     all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
     all.push_back({Observable::kMassFallen, passed});
     all.push_back({Observable::kMassLeft, std::max(0.0, filled - passed)});

@@ -39,8 +39,8 @@ Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame,
 std::string PictureFile(int picture);
 
 // How much the surface moves: ∫ √(p (1 - p)) dA / D, over the picture, D the width that it is
-// scaled by; of a film the mean over its pictures. Level surfaces that lie s high or low by chance
-// give 1.81 s.
+// scaled by; of a film the mean over its pictures. Level surfaces whose heights are normally
+// distributed give 1.62 of their standard deviations.
 Reading CohesiveIndex(const CameraMemory& memory, const imaging::Frame& frame,
                       const CameraOptions& camera);
 

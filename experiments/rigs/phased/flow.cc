@@ -29,15 +29,20 @@ bool HasStopped(std::span<const Passed> flow, double for_time) {
   return false;
 }
 
-std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed,
+bool HasFlowed(double passed, double filled) {
+  constexpr double kFlowing = 0.1;  // of the powder
+  return passed > kFlowing * filled;
+}
+
+std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, double filled,
                                   const std::string& none) {
   Reading time{Observable::kDischargeTime};
-  Reading rate{Observable::kDischargeRate};
-  if (passed > 0 && !flow.empty()) {
+  Reading rate{.observable = Observable::kDischargeRate, .value = 0};
+  if (HasFlowed(passed, filled) && !flow.empty()) {
     time.value = TimeOf(0.95 * passed, flow);
     rate.value = 0.4 * passed / (TimeOf(0.6 * passed, flow) - TimeOf(0.2 * passed, flow));
   } else {
-    time.undefined = rate.undefined = none;
+    time.undefined = none;
   }
   return {time, rate};
 }

@@ -28,9 +28,12 @@ struct FlowMemory {
 // Whether nothing has passed for so long [s]: where little runs out of much, the rest of it rests.
 bool HasStopped(std::span<const Passed> flow, double for_time);
 
-// Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; without a
-// value, and `none` for a reason, where nothing has.
-std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed,
+// Whether more than a tenth of what was `filled` [kg] has run out: else an arch stands.
+bool HasFlowed(double passed, double filled);
+
+// Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; where it
+// has not flowed the rate is 0, and the time has no value, `none` for a reason.
+std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, double filled,
                                   const std::string& none);
 
 }  // namespace talus::rigs

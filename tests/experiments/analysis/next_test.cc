@@ -17,6 +17,7 @@ namespace talus::analysis {
 namespace next_test {
 
 using campaign::JointView;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -171,7 +172,10 @@ TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
   NextTable asked = Rank(view, {slow, {.name = "quick"}}, false);
   EXPECT_THAT(NextText(asked), HasSubstr("?: `talus next DIR --simulate` runs the few"));
   asked.has_simulated = true;
-  EXPECT_THAT(NextText(asked), HasSubstr("?: the core time was too short for it; the cheapest, "));
+  asked.asked = " tests.json --for spread.json";
+  EXPECT_THAT(NextText(asked),
+              AllOf(HasSubstr("?: the core time was too short for it; the cheapest, "),
+                    HasSubstr("`talus next DIR tests.json --for spread.json --simulate --budget")));
 }
 
 // Two rectangles, of which the second is lower and wider: the difference has both colours, and two

@@ -255,7 +255,7 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   };
   std::string same = TwoExperiments::FastLift("23 mg");
   same.replace(same.find("fast lift"), 9, "heap");
-  refuses(same, "stands there twice");
+  refuses(same, "has a test \"heap\" already");
   refuses(R"({"name": "no data"})", "has no data");
   refuses(R"({"name": "gone", "map": "gone.png", "plate_diameter": "10 mm"})", "gone.png");
   refuses(TwoExperiments::FastLift("23 mg"), "--core-time", {.core_time = -1});

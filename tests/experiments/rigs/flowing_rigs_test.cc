@@ -194,6 +194,17 @@ TEST(DrawDown, WhatClingsToTheShelvesHasNotFallen) {
   EXPECT_LE(fallen, in_lower_half + elsewhere + 1e-9);  // some of what is there hangs on by others
 }
 
+// Eight grains that fell through a slot before it jammed had a rate of their own.
+TEST(Flow, WhatJamsHasTheRateZeroAndNoTime) {
+  const std::vector<Passed> flow{{0, 0}, {0.01, 0.3}, {0.02, 0.6}, {0.03, 0.9}, {0.04, 1}};
+  const auto jammed = FlowReadings(flow, 1, 10.1, "it jams");
+  EXPECT_EQ(jammed[0].undefined, "it jams");
+  EXPECT_EQ(jammed[1].value, 0);
+  const auto flowing = FlowReadings(flow, 1, 9.9, "it jams");
+  EXPECT_NEAR(flowing[1].value, 30, 1e-9);
+  EXPECT_NEAR(flowing[0].value, 0.035, 1e-9);
+}
+
 TEST(Flow, HasStoppedWhenNothingHasPassedForLongEnough) {
   const std::vector<Passed> flow{{0, 0}, {0.1, 1}, {0.2, 2}, {0.3, 2}, {0.4, 2}};
   EXPECT_TRUE(HasStopped(flow, 0.2));
