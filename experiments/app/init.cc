@@ -181,10 +181,12 @@ void Init(InitArguments& arguments) {
   }
   if (arguments.photos.empty() && AsksOnTerminal()) AskForPhotographs(arguments);
   campaign::SpecAnswers answers = arguments.answers;
+  if (!answers.name.empty()) {  // no answer could mend it
+    base::Problems problems;
+    base::RequireName(problems, "--name", answers.name);
+    problems.ThrowIfAny();
+  }
   answers.name = NameOf(arguments);
-  base::Problems problems;
-  base::RequireName(problems, "--name", answers.name);
-  problems.ThrowIfAny();
   for (const std::string& test : arguments.tests) {
     answers.tests.push_back(campaign::ParseDraftTest(test));
   }

@@ -219,7 +219,7 @@ TEST_F(CampaignTest, TheStatusIsByTheObjectiveOfTheResult) {
   const fs::path folder = Finished(kSmall);
   EXPECT_THAT(StatusText(folder), HasSubstr(" mm², trial "));
   RunFake(folder, {}, {.spec = {}, .add_simulations = 2, .objective = journal::Objective::kAor2});
-  EXPECT_THAT(StatusText(folder), HasSubstr(" °, trial "));
+  EXPECT_THAT(StatusText(folder), HasSubstr(" ° off, trial "));
   EXPECT_THAT(StatusText(folder), Not(HasSubstr(" mm², trial ")));
 }
 
