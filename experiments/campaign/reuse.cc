@@ -14,6 +14,7 @@
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/start.h"
 #include "experiments/campaign/take_over.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/engines/command_case.h"
 
 namespace talus::campaign {
@@ -54,7 +55,7 @@ std::optional<std::string> WhyNotByEngine(const Reuser& reuser, const FormerTria
   const bool is_command_here = reuser.spec.engine.kind == EngineKind::kCommand;
   const std::string here = is_command_here ? "another engine simulates" : "talus itself simulates";
   try {
-    const auto engine = trials::EngineOfCase(former.folder / "case.json");
+    const auto engine = trials::EngineOfCase(former.folder / rigs::kCaseFile);
     if (engine.has_value() == is_command_here) return std::nullopt;
     return (engine ? "it was run by another engine, \"" + base::Joined(engine->command, " ") + "\""
                    : std::string("it was run by talus itself")) +

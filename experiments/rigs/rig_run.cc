@@ -62,7 +62,7 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
   if (const auto picture = rig_->FromAbove(grains)) {
     base::WriteFileAtomically(folder_ / "from_above.png", imaging::EncodePng(*picture));
   }
-  base::WriteFileAtomically(folder_ / "result.json", rig_->ResultText(grains, timing));
+  base::WriteFileAtomically(folder_ / kResultFile, rig_->ResultText(grains, timing));
 }
 
 void RigRun::WritePictures() const {

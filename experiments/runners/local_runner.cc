@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/descriptor.h"
 #include "base/files/file.h"
 #include "experiments/rigs/case/run_files.h"
 
@@ -105,22 +106,19 @@ void WriteGroup(const std::filesystem::path& folder, pid_t pid, const std::strin
 class Gate {
  public:
   Gate() : event_(::eventfd(0, EFD_CLOEXEC)) {
-    if (event_ < 0) {
+    if (event_.get() < 0) {
       throw base::Error(std::string("no process can be started: ") + std::strerror(errno));
     }
   }
-  Gate(const Gate&) = delete;
-  Gate& operator=(const Gate&) = delete;
-  ~Gate() { ::close(event_); }
 
-  void Open() const { (void)::eventfd_write(event_, 1); }
+  void Open() const { (void)::eventfd_write(event_.get(), 1); }
   bool Pass() const {  // in the child
     eventfd_t count = 0;
-    return ::eventfd_read(event_, &count) == 0;
+    return ::eventfd_read(event_.get(), &count) == 0;
   }
 
  private:
-  int event_;
+  base::Descriptor event_;
 };
 
 // The child's side: only what is allowed between fork and exec.

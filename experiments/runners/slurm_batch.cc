@@ -131,7 +131,7 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   for (const auto& [name, value] : kSharingRanks) out << "export " << name << '=' << value << '\n';
   out << "trap - EXIT TERM\n"
       << "started=$(now)\n"
-      << "\"${command[@]}\" >log.txt 2>&1 </dev/null\n"
+      << "\"${command[@]}\" >" << rigs::kLogFile << " 2>&1 </dev/null\n"
       << "status=$?\n"
       << "took=$(($(now) - started))\n";
   // /proc/PID/stat, fields 16 and 17: processor time of the children that have ended, in ticks.

@@ -219,7 +219,7 @@ Eigen::MatrixXd OnLevels(const Domain& domain, const Box& box, Eigen::MatrixXd p
   return points;
 }
 
-// Of all there is: of a levelled coordinate its levels count.
+// The share of all there is that a box has: of a levelled coordinate its levels count.
 double ShareOf(const Domain& domain, const Box& box) {
   double share = 1;
   for (Eigen::Index k = 0; k < box.low.size(); ++k) {

@@ -1,4 +1,4 @@
-// What of a photograph's dark areas is powder of the test.
+// Which dark areas of a photograph are powder of the test.
 #include "imaging/photos/silhouette.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ TEST(Silhouette, KeepsWhatStandsOnThePlateAndFillsHoles) {
   EXPECT_FALSE(dark(180, 10));
 }
 
-// Of a column that has collapsed the grains beyond its own length count, and are no other thing.
+// Grains beyond the own length of a column that has collapsed count, and are no other thing.
 TEST(Silhouette, PowderMayLieAnywhereOnAFloor) {
   const Scene scene = SmallScene();
   const fs::path folder = EmptyFolder("collapsed");

@@ -31,7 +31,7 @@ NUMBERS = {
 # metres no millimetres.
 BOUNDS = {"_kg_per_s": (1e-5, 0.1), "_deg": (0.05, 80), "_m": (1e-5, 0.2), "_kg_per_m3": (500, 2000), "_kg": (0, 0.1),
           "_s": (0.01, 60)}
-# Of what `value` is given in, in the unit of the deck's number.
+# One unit that `value` is given in, in the unit of the deck's number.
 UNITS = {"mg": 1e-6, "kg/m^3": 1, "mm": 1e-3, "deg": 1, "s": 1, "g/s": 1e-3}
 LENGTHS = {"lifted_tube": None, "tapped_density": "diameter", "column_collapse": "length",
            "tilting_box": "length", "draw_down": "length", "drum": "diameter",

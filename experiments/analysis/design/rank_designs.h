@@ -24,7 +24,7 @@ struct DesignChoice {
 
 struct DesignTable {
   NextTable tests;  // each by itself, in the spec's order
-  // Of the parameters, SI, NaN where not given; empty: nothing is supposed.
+  // Values of the parameters, SI, NaN where not given; empty: nothing is supposed.
   std::vector<double> supposed{};
   double scale_factor = 1;
   // Choices of one test, two, three: by size. First the most informative, or what leaves least of

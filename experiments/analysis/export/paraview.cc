@@ -19,6 +19,7 @@
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_case.h"
@@ -130,7 +131,7 @@ bool HasHeaps(const fs::path& campaign) {
   const campaign::CampaignFolder folder{campaign};
   std::error_code absent;
   for (const auto& trial : fs::directory_iterator(folder.trial(1).parent_path(), absent)) {
-    if (fs::exists(trial.path() / "heap.vtp")) return true;
+    if (fs::exists(trial.path() / rigs::kHeapFile)) return true;
   }
   return false;
 }
@@ -140,7 +141,7 @@ bool HasHeaps(const fs::path& campaign) {
 fs::path ExportVtk(const VtkExport& request) {
   const std::int64_t id = request.trial ? *request.trial : TrialToShow(request.campaign);
   const fs::path trial = campaign::CampaignFolder{request.campaign}.trial(id);
-  const fs::path heap = trial / "heap.vtp";
+  const fs::path heap = trial / rigs::kHeapFile;
   if (!fs::exists(heap)) {
     throw base::ConfigError(heap.string() + ": is not there; " +
                             (HasHeaps(request.campaign)
@@ -148,15 +149,15 @@ fs::path ExportVtk(const VtkExport& request) {
                                  : "no trial here has left spheres, as of a deck that leaves "
                                    "numbers or images alone"));
   }
-  const rigs::Case rig_case = trials::LoadAnyCase(trial / "case.json");
+  const rigs::Case rig_case = trials::LoadAnyCase(trial / rigs::kCaseFile);
   const std::vector<base::Sphere> grains = trials::HeapOfTrial(trial);
   double top = 0;
   for (const base::Sphere& grain : grains) top = std::max(top, grain.position.z + grain.radius);
   base::ClaimOutputFolder(request.out, "export");
-  const auto engine = trials::EngineOfCase(trial / "case.json");
+  const auto engine = trials::EngineOfCase(trial / rigs::kCaseFile);
   const bool is_ours = !engine || !trials::HasLeftHeapVtp(*engine, trial);
   base::WriteFileAtomically(
-      request.out / "heap.vtp",
+      request.out / rigs::kHeapFile,
       is_ours ? base::ReadFile(heap) : engine::VtpOf(trials::ParticlesOf(grains), 0));
   std::vector<engine::Wall> walls = WallsOf(rig_case, top);
   std::erase_if(walls, [](const engine::Wall& w) { return MeshOf(w.shape).polygons.empty(); });

@@ -148,7 +148,7 @@ std::string CheapestText(const NextTable& table) {
          table.asked + " --simulate --budget \"" + ShortNumber(budget) + " s\"`";
 }
 
-// Of what stands as "?".
+// Says what would tell the candidates that stand as "?".
 std::string UnknownText(const NextTable& table) {
   const std::string cheapest = table.has_simulated ? CheapestText(table) : "";
   if (cheapest.empty()) {

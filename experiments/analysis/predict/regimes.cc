@@ -10,6 +10,8 @@
 #include "base/files/file.h"
 #include "base/median.h"
 #include "base/text/plain_number.h"
+#include "engine/bodies/particle.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::analysis {
 namespace {
@@ -41,12 +43,8 @@ double PullOff(const rigs::Case& rig_case, double diameter) {
   return 0;
 }
 
-double MassOf(const engine::Material& m, double diameter) {
-  return m.density * std::numbers::pi / 6 * std::pow(diameter, 3);
-}
-
 double ContactDuration(const engine::Material& m, double diameter, double speed) {
-  const double mass = MassOf(m, diameter) / 2;
+  const double mass = engine::SphereMass(m, diameter / 2) / 2;
   const double modulus = m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio));
   return 2.87 * std::pow(mass * mass / (diameter / 4 * modulus * modulus * speed), 0.2);
 }
@@ -93,7 +91,7 @@ std::string WarningOf(const Compared& compared, const FlowRegime& process,
 }  // namespace
 
 std::optional<rigs::Regime> RegimeIn(const std::filesystem::path& trial) {
-  const std::filesystem::path file = trial / "result.json";
+  const std::filesystem::path file = trial / rigs::kResultFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
   const auto json =
       nlohmann::json::parse(base::IfWhole(base::ReadFile(file)).value_or(""), nullptr, false);
@@ -114,7 +112,8 @@ FlowRegime DescribeRegime(const std::string& name, const std::vector<rigs::Regim
       .inertial_number = Medians(runs, &rigs::Regime::inertial_number),
       .pressure = Medians(runs, &rigs::Regime::pressure),
       .shear_rate = Medians(runs, &rigs::Regime::shear_rate),
-      .bond_number = PullOff(rig_case, diameter) / (MassOf(material, diameter) * rig_case.gravity)};
+      .bond_number = PullOff(rig_case, diameter) /
+                     (engine::SphereMass(material, diameter / 2) * rig_case.gravity)};
   for (double& i : described.inertial_number) i /= scale;
   for (const double rate : described.shear_rate) {
     described.contact_duration.push_back(rate *

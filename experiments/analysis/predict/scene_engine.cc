@@ -16,6 +16,7 @@
 #include "engine/scene/scene_json.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::analysis {
 namespace {
@@ -51,7 +52,8 @@ using Volumes = std::map<double, double>;
 // is its own.
 constexpr int kParts = 101;
 
-// Of the powder's own grains: `density` [kg/m³] makes volumes of the masses that are filled in.
+// Volumes of the powder's own grains: `density` [kg/m³] makes volumes of the masses that are filled
+// in.
 Volumes VolumesOf(const engine::SceneSpec& scene, int powder, double density) {
   Volumes volumes;
   const auto is_powder = [&](const auto& grains) {
@@ -201,7 +203,7 @@ bool SceneEngine::IsComplete(const fs::path& folder) { return engine_.IsComplete
 trials::TrialOutput SceneEngine::Collect(const rigs::Case& rig_case, const fs::path& folder) {
   trials::TrialOutput output = engine_.Collect(rig_case, folder);
   const auto result =
-      nlohmann::json::parse(base::IfWhole(base::ReadFile(folder / "result.json")).value_or(""));
+      nlohmann::json::parse(base::IfWhole(base::ReadFile(folder / rigs::kResultFile)).value_or(""));
   ScalarList scalars{output.scalars};
   scalars.Add("num_left_domain", result.at("num_left_domain").get<double>(), "-");
   scalars.Add("simulated_time_s", result.at("simulated_time_s").get<double>(), "s");

@@ -119,7 +119,8 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
   }
 }
 
-// Of the set's farthest measurement, in what is still a fit; NaN with nothing to judge by.
+// How far the set's farthest measurement is off, in what is still a fit; NaN with nothing to judge
+// by.
 double FarthestOff(const Answer& answer, const ResultCandidate& candidate) {
   const std::vector<MeasurementFit> distances = DistancesOf(answer, candidate);
   return distances.empty() ? kNotKnown : distances.front().off;

@@ -57,7 +57,7 @@ std::string ParameterLines(const Answer& result) {
   return text;
 }
 
-// Of an objective that is the distance from the experiment's angle, not an angle.
+// The unit says where an objective is the distance from the experiment's angle, not an angle.
 std::string DistanceUnit(const Answer& answer) {
   const bool is_distance = std::ranges::any_of(journal::kObjectives, [&](const auto& info) {
     return info.is_angle && info.ValueKey() == answer.objective;

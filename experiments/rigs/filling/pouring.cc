@@ -46,7 +46,7 @@ double FallHeight(const Case& c, const Vessel& vessel, const engine::Pour& pour)
   return DropHeight(c, vessel) + pour.slab() + vessel.region.base.z - vessel.Floor();
 }
 
-// Of a mouth out of which grains up to this diameter are poured.
+// The diameter of a mouth out of which grains up to this diameter are poured.
 double MouthFor(double largest, const Case& c, const Vessel& vessel) {
   if (vessel.funnel) return vessel.funnel->outlet;
   // Not so narrow that grains come down in a file.

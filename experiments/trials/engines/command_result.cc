@@ -141,7 +141,7 @@ std::vector<base::Sphere> ShownOf(const rigs::Case& rig_case, std::vector<base::
 }
 
 std::vector<base::Sphere> HeapOfTrial(const fs::path& folder) {
-  const fs::path rig_case = folder / "case.json";
+  const fs::path rig_case = folder / rigs::kCaseFile;
   const auto engine = fs::exists(rig_case) ? EngineOfCase(rig_case) : std::nullopt;
   if (!engine || !HasLeftHeapVtp(*engine, folder))
     return imaging::ReadSpheres(folder / rigs::kHeapFile);

@@ -76,14 +76,14 @@ void TakeScaleFactor(double factor, nlohmann::ordered_json& result) {
 
 // The picture and the result as a run of this case would have them; those of a camera stay.
 void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
+  const auto text = base::IfWhole(base::ReadFile(folder / rigs::kResultFile));
   auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   if (!rig_case.rig.camera) DrawHeap(rig_case, folder, result);
   TakeScaleFactor(rig_case.coarse_graining.scale_factor, result);
   result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
-  base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));
-  base::WriteFileAtomically(folder / "result.json",
+  base::WriteFileAtomically(folder / rigs::kCaseFile, rigs::CaseText(rig_case));
+  base::WriteFileAtomically(folder / rigs::kResultFile,
                             base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 
@@ -98,24 +98,24 @@ std::filesystem::path TalusEngine::ThisProgram() {
 }
 
 void TalusEngine::Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  PrepareFolder(folder, "case.json", rigs::CaseText(rig_case));
+  PrepareFolder(folder, rigs::kCaseFile, rigs::CaseText(rig_case));
 }
 
 bool TalusEngine::IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  return HoldsKey(folder, "case.json", rigs::CaseText(rig_case));
+  return HoldsKey(folder, rigs::kCaseFile, rigs::CaseText(rig_case));
 }
 
 std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
-  return {program_.string(), "simulate", "case.json", "--out", "."};
+  return {program_.string(), "simulate", rigs::kCaseFile, "--out", "."};
 }
 
 bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
-  const std::filesystem::path result = folder / "result.json";
+  const std::filesystem::path result = folder / rigs::kResultFile;
   return std::filesystem::exists(result) && base::IfWhole(base::ReadFile(result));
 }
 
 TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
+  const auto text = base::IfWhole(base::ReadFile(folder / rigs::kResultFile));
   if (!text) throw base::Error("left a result.json that does not match its checksum");
   const auto result = nlohmann::json::parse(*text, nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
@@ -140,7 +140,7 @@ TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesyst
 
 std::optional<std::string> TalusEngine::WhyNotTaken(const rigs::Case& rig_case,
                                                     const std::filesystem::path& from) {
-  const rigs::Case made = rigs::LoadCase(from / "case.json");
+  const rigs::Case made = rigs::LoadCase(from / rigs::kCaseFile);
   if (auto difference = rigs::RunDifference(made, rig_case)) return difference;
   if (!rig_case.frame) return std::nullopt;
   // What a camera has seen in another frame is gone.

@@ -7,6 +7,7 @@
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_run.h"
 #include "experiments/trials/engines/command_case.h"
@@ -61,7 +62,7 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
   RunJob job{.kind = std::string(base::NameOf(rig_case.rig.kind)),
              .input_hash = rigs::CaseHash(rig_case),
              .source = input.path,
-             .input_name = "case.json",
+             .input_name = rigs::kCaseFile,
              .input = rigs::CaseText(rig_case),
              .checkpoint_interval = rig_case.checkpoint_interval,
              .start = [&] { return std::make_unique<rigs::RigRun>(rig_case, options.folder); },

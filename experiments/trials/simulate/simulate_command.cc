@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "base/json/json_text.h"
 #include "base/version.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/engines/template_folder.h"
@@ -37,7 +38,7 @@ void RequireSourceElsewhere(const CommandFolderOptions& options) {
 void RequireOwnFolder(const CommandCase& command_case, const CommandFolderOptions& options) {
   const fs::path& folder = options.folder;
   if (!fs::is_directory(folder) || fs::is_empty(folder)) return;
-  const fs::path own = folder / "case.json";
+  const fs::path own = folder / rigs::kCaseFile;
   if (fs::exists(own) && base::ReadFile(own) == CaseText(command_case)) return;
   if (!CommandEngine::HasPrepared(folder)) {
     throw base::ConfigError(folder.string() +
@@ -90,7 +91,7 @@ void WriteFailure(const fs::path& folder, const std::string& reason) {
   result["status"] = "failed";
   result["talus_version"] = base::Version();
   result["reason"] = reason;
-  base::WriteFileAtomically(folder / "result.json",
+  base::WriteFileAtomically(folder / rigs::kResultFile,
                             base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 

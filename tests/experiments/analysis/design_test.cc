@@ -99,8 +99,8 @@ TEST_F(DesignTest, WhatIsKnownBeforehandCounts) {
   EXPECT_GT(table.tests.width[1], 0.85);
 }
 
-// Of one powder ranges differ by the chance of its measurement alone, of any by the powder, too;
-// bits are of all sets.
+// Ranges of one powder differ by the chance of its measurement alone, those of any by the powder,
+// too; bits are of all sets.
 TEST_F(DesignTest, APowderThatIsSupposedLeavesRangesOfItsOwn) {
   const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
   const DesignTable any = Rank(design, {});

@@ -36,8 +36,8 @@ TEST(Spread, OfABalancedDesignIsTheAnalysisOfVariance) {
   EXPECT_NEAR(spread.Ninety().low + spread.Ninety().high, 2 * 4, 1e-6);  // symmetric
 }
 
-// Of two runs the next one lies within 6.314 √(1 + ½) of their standard deviations from their mean
-// in 90 % of cases: Student's t of one degree of freedom.
+// The run after two lies within 6.314 √(1 + ½) of their standard deviations from their mean in 90 %
+// of cases: Student's t of one degree of freedom.
 TEST(Spread, TwoRunsSayLittleOfTheNext) {
   const Spread spread({.runs = {{1, 3}}, .weight = {1}});
   EXPECT_NEAR(spread.Ninety().high, 2 + 6.314 * std::sqrt(2) * std::sqrt(1.5), 0.01);

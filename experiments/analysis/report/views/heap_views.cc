@@ -7,6 +7,7 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/engines/command_result.h"
 #include "imaging/formats/images/photograph_file.h"
 #include "imaging/photos/overlay.h"
@@ -24,7 +25,8 @@ constexpr std::size_t kMostViews = 4;  // of a heap's photographs
 std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial, LeftOut& left_out) {
   const auto folder = campaign::CampaignFolder{evidence.folder}.trial(trial);
   std::error_code absent;
-  if (evidence.folder.empty() || !std::filesystem::exists(folder / "heap.vtp", absent)) return {};
+  if (evidence.folder.empty() || !std::filesystem::exists(folder / rigs::kHeapFile, absent))
+    return {};
   return ReadExtra(left_out, [&] { return trials::HeapOfTrial(folder); });
 }
 

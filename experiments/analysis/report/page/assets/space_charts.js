@@ -45,7 +45,7 @@ function spaceChart() {
         const i = rowOf.get(b.trials[0]);
         return [...at(b.values), ...extra(i), b.objective, i];
       })}));
-    // Of one parameter a line: the axis across it is of whichever objective is shown.
+    // One parameter is marked by a line: the axis across it is of whichever objective is shown.
     if (D.headline && n === 1) {
       series.push({type: kind, name: "recommended", symbol: "path://M-1,-9 L1,-9 L1,9 L-1,9 Z", data: [],
         itemStyle: {color: starColor}, markLine: verticalMark(D.headline.values[0].value)});
