@@ -17,8 +17,9 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The disk is full: nobody's fault, and the same work succeeds when there is room.
-class DiskFull : public Error {
+// The system refused to write a file, as the disk is full, over a quota, read-only or broken: no
+// fault of the work, and the same succeeds when that is mended.
+class Unwritten : public Error {
  public:
   using Error::Error;
 };

@@ -53,9 +53,7 @@ void SyncFolderOf(const std::filesystem::path& path) {
 }  // namespace
 
 void ThrowUnwritten(const std::filesystem::path& path, int code) {
-  const std::string why = path.string() + ": cannot be written: " + std::strerror(code);
-  if (code == ENOSPC) throw DiskFull(why);
-  throw Error(why);
+  throw Unwritten(path.string() + std::string(kUnwritten) + std::strerror(code));
 }
 
 std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit) {

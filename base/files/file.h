@@ -26,7 +26,10 @@ enum class Outlives { kPowerCut, kProgram };
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Outlives outlives = Outlives::kPowerCut);
 
-// Throws Error, or DiskFull, that names a file that the system refused to write; `code` is errno's.
+// What Unwritten says between a file's name and the system's reason.
+inline constexpr std::string_view kUnwritten = ": cannot be written: ";
+
+// Throws Unwritten, which names a file that the system refused to write; `code` is errno's.
 [[noreturn]] void ThrowUnwritten(const std::filesystem::path& path, int code);
 
 // XXH3, 64 bits [xxhash]: detects damage, not malice.

@@ -32,6 +32,7 @@
 #include "experiments/trials/optimize/evaluator.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "experiments/trials/simulate/run_log.h"
+#include "optimizer/space/candidate_table.h"
 
 namespace talus::app {
 namespace {
@@ -202,12 +203,28 @@ void ValidateScene(const base::JsonFile& file, bool) {
   }
 }
 
+// A table made for wider ranges is read as far as it serves; how far, only this shows.
+void PrintCandidates(const optimizer::ParameterSpace& space, const optimizer::Domain& domain) {
+  if (space.candidates.empty()) return;
+  const auto usable = domain.candidates.rows();
+  std::vector<std::string> names;
+  for (const int i : space.Free())
+    names.push_back(space.parameters.at(static_cast<std::size_t>(i)).name);
+  const auto num_rows = std::ssize(optimizer::ReadCandidateTable(space.candidates, names));
+  std::cout << "  candidates        " << usable << " of " << base::Counted(num_rows, "row")
+            << " of " << space.candidates.string()
+            << (usable < num_rows ? "; the others repeat one, or lie outside the ranges, levels or "
+                                    "constraints\n"
+                                  : "\n");
+}
+
 void ValidateProblem(const base::JsonFile& file, bool) {
   const auto problem = base::LoadOptions<trials::OptimizeProblem>(file);
-  problem.space.MakeDomain();  // reads the table of candidates
+  const optimizer::Domain domain = problem.space.MakeDomain();  // reads the table of candidates
   if (problem.target) trials::TargetImage(*problem.target);
   std::cout << file.path.string() << ": is a problem for `talus optimize` in order\n"
             << "  evaluations       at most " << problem.evaluations << '\n';
+  PrintCandidates(problem.space, domain);
 }
 
 void ValidateDesign(const base::JsonFile& file, bool) {
@@ -244,6 +261,11 @@ constexpr ValidatedKind kKinds[] = {
 
 void Validate(const std::string& path, bool with_experiment) {
   const base::JsonFile file = base::ReadJsonFile(path);
+  if (file.root.is_object() && file.root.contains("spec_path")) {
+    throw base::ConfigError(path +
+                            ": is the record of a campaign, which needs no checking; its spec is " +
+                            base::TextAt(file.root, "spec_path"));
+  }
   if (IsProblem(file.root)) return ValidateProblem(file, with_experiment);
   for (const ValidatedKind& kind : kKinds) {
     if (file.root.is_object() && file.root.contains(kind.key)) {

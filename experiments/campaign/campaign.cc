@@ -23,7 +23,7 @@ constexpr int kMostReruns = 3;        // of a trial that others keep ending
 constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
 
 [[noreturn]] void StopForDisk(const journal::TrialRecord& trial, const std::string& reason) {
-  throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
+  throw base::Unwritten("trial " + std::to_string(trial.id) + ": " + reason);
 }
 
 // `is_settled`: trials have succeeded with the deck, so that it can no more be mended.
@@ -262,7 +262,7 @@ void Campaign::Collect(journal::TrialRecord& trial) {
   try {
     output = parts_.engine->Collect(CaseOf(trial), folder_.trial(trial.id));
     TakeOutput(output, ReferenceOf(trial), trial);
-  } catch (const base::DiskFull& error) {
+  } catch (const base::Unwritten& error) {
     StopForDisk(trial, error.what());
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
@@ -293,7 +293,7 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
     throw base::Error(folder.string() +
                       ": has vanished while its trial ran; `talus resume` runs the trial again");
   }
-  if (trials::LogSaysDiskFull(folder_.trial(trial.id))) StopForDisk(trial, reason);
+  if (trials::LogSaysUnwritten(folder_.trial(trial.id))) StopForDisk(trial, reason);
   if (spec_.retry_failed && trial.attempts == 1) {
     parts_.runner->Forget(JobOf(trial));
     ++trial.attempts;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/record/trial_end.h"
 
 namespace talus::campaign {
@@ -28,6 +29,23 @@ bool TakeUp(const runners::Job& job, const FolderCase& run, const CampaignParts&
 void Start(const runners::Job& job, runners::Runner& runner) {
   const std::string name = runner.Submit({&job, 1}).front();
   if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
+}
+
+constexpr const char* kMend = "; mend this, and the same command goes on";
+
+// A set-up that starts nothing, or a disk that takes no files, is no failure of the case, and would
+// be the next one's, too.
+void StopIfSetUpFailed(const runners::FinishedJob& job, const fs::path& folder,
+                       trials::TrialEngine& engine) {
+  if (job.end == runners::JobEnd::kNotStarted) {
+    throw base::Error(folder.string() + ": could not be started: " + FailureText(job, folder) +
+                      kMend);
+  }
+  if (engine.IsComplete(folder)) return;
+  RequireWritable(folder.parent_path());
+  if (trials::LogSaysUnwritten(folder)) {
+    throw base::Unwritten(folder.string() + ": " + FailureText(job, folder) + kMend);
+  }
 }
 
 }  // namespace
@@ -67,10 +85,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       // The same call later simulates what has left no result.
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
-      if (job.end == runners::JobEnd::kNotStarted) {  // so would be every other
-        throw base::Error(folder.string() + ": could not be started: " + FailureText(job, folder) +
-                          "; mend this, and the same command goes on");
-      }
+      StopIfSetUpFailed(job, folder, engine);
       runs.has_ended(index);
       --running;
     }

@@ -46,10 +46,15 @@ std::string Uri(const std::filesystem::path& path, std::string_view query) {
 }
 
 // A log-mode database needs a writable folder even to be read, unless nobody can be writing it:
-// then it is opened as a file that does not change.
+// then it is opened as a file that does not change. What is still in the log would be missed.
 bool NeedsImmutable(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  return ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(path.string() + "-wal");
+  if (::access(folder.c_str(), W_OK) == 0 || std::filesystem::exists(path.string() + "-shm")) {
+    return false;
+  }
+  std::error_code none;
+  const auto logged = std::filesystem::file_size(path.string() + "-wal", none);
+  return none || logged == 0;
 }
 
 }  // namespace

@@ -186,9 +186,11 @@ CaseSize EstimateCase(const Case& c) {
   size.simulated_time = pouring + SimulatedTime(c, test_time);
   // Half of the grains are there while they are poured. Those that leave the plate do so late in
   // the test: they are there for most of it, and hardly when the heap comes to rest.
-  const double leave = c.rig.kind == RigKind::kLiftedTube ? 1 - ExpectHeap(c).share : 0;
-  const double time =
-      size.simulated_time - pouring / 2 - leave * (0.15 * test_time + 0.9 * kRestTime);
+  const ExpectedHeap heap =
+      c.rig.kind == RigKind::kLiftedTube ? ExpectHeap(c) : ExpectedHeap{.share = 1};
+  const double lifting = test_time - heap.rest_time;
+  const double time = size.simulated_time - pouring / 2 -
+                      (1 - heap.share) * (0.15 * lifting + 0.9 * heap.rest_time);
   size.grain_time =
       (time + BedShare(c, vessel) * size.simulated_time) * static_cast<double>(size.num_grains);
   return size;

@@ -31,17 +31,18 @@ double NumberOf(std::string_view text) {
 }  // namespace
 
 bool IsUnfinished(const SlurmState& state) {
-  constexpr std::array<std::string_view, 14> kUnfinished{
-      "PENDING",   "RUNNING",      "COMPLETING",    "CONFIGURING", "SUSPENDED",
-      "STOPPED",   "RESIZING",     "SIGNALING",     "REQUEUED",    "REQUEUE_FED",
-      "STAGE_OUT", "REQUEUE_HOLD", "RESV_DEL_HOLD", "SPECIAL_EXIT"};
-  return std::find(kUnfinished.begin(), kUnfinished.end(), state.name) != kUnfinished.end();
+  // A word that is not known is of a job that goes on: taken for ended it would run twice.
+  constexpr std::array<std::string_view, 13> kEnded{
+      kLost,           "BOOT_FAIL",     "CANCELLED", "COMPLETED",     "DEADLINE",
+      "FAILED",        "LAUNCH_FAILED", "NODE_FAIL", "OUT_OF_MEMORY", "PREEMPTED",
+      "RECONFIG_FAIL", "REVOKED",       "TIMEOUT"};
+  return std::find(kEnded.begin(), kEnded.end(), state.name) == kEnded.end();
 }
 
 bool IsWaiting(const SlurmState& state) {
-  constexpr std::array<std::string_view, 7> kWaiting{"PENDING",     "CONFIGURING",  "REQUEUED",
-                                                     "REQUEUE_FED", "REQUEUE_HOLD", "RESV_DEL_HOLD",
-                                                     "SPECIAL_EXIT"};
+  constexpr std::array<std::string_view, 8> kWaiting{
+      "PENDING",     "CONFIGURING",  "POWER_UP_NODE", "REQUEUED",
+      "REQUEUE_FED", "REQUEUE_HOLD", "RESV_DEL_HOLD", "SPECIAL_EXIT"};
   return std::find(kWaiting.begin(), kWaiting.end(), state.name) != kWaiting.end();
 }
 
@@ -99,8 +100,13 @@ SlurmStates ParseSacct(std::string_view output) {
 }
 
 std::string ParseSubmitted(std::string_view output) {
-  const std::size_t end = output.find_first_not_of("0123456789");
-  return std::string(output.substr(0, std::min(end, output.size())));
+  std::string job;
+  std::istringstream lines{std::string(output)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::string number = line.substr(0, line.find_first_not_of("0123456789"));
+    if (!number.empty()) job = number;
+  }
+  return job;
 }
 
 SubmitReply SlurmQueue::Submit(const std::filesystem::path& script,
@@ -114,7 +120,8 @@ SubmitReply SlurmQueue::Submit(const std::filesystem::path& script,
   if (!reply.job.empty()) return reply;
   reply.error = result.errors.empty() ? "sbatch gave no job number" : result.errors;
   for (const char* text : {"Unable to contact", "timed out", "temporarily", "no answer in time",
-                           "Slurm backup controller in standby", "job submit limit"}) {
+                           "Slurm backup controller in standby", "job submit limit",
+                           "Zero Bytes were transmitted", "connection failure"}) {
     reply.try_again = reply.try_again || reply.error.find(text) != std::string::npos;
   }
   // Slurm says the same of a job that is too large: only one that others fill may have room later.

@@ -145,7 +145,8 @@ void SlurmRunner::SendBatch(std::int64_t batch) {
     if (reply.job.empty() && !reply.try_again) refused.push_back(task);
   }
   for (const Task& task : refused) {
-    Report(task, Finished(task.job.id, JobEnd::kNotStarted, "sbatch: " + reply.error));
+    Report(task, Finished(task.job.id, JobEnd::kNotStarted,
+                          "sbatch: " + std::string(base::Trimmed(reply.error))));
   }
   if (refused.empty()) return;
   fs::remove(records_.File(batch, ".sh"));
@@ -300,7 +301,9 @@ void SlurmRunner::Judge(Task task) {
   }
 }
 
+// Where Slurm has only lost sight of the job, it must not run beside its successor.
 void SlurmRunner::Requeue(Task task, const std::string& reason) {
+  queue_.Cancel(task.Name());
   Task again{.job = task.job,
              .batch = 0,
              .index = 0,

@@ -64,7 +64,7 @@ Verdict VerdictOf(const SlurmState& state, const std::string& log) {
             .requeue = true,
             .await_result = true};
   }
-  // NODE_FAIL, BOOT_FAIL, REVOKED, and whatever comes to be.
+  // NODE_FAIL, BOOT_FAIL, REVOKED and the like.
   return {.end = JobEnd::kNodeFailure,
           .reason = "lost its node (" + state.name + ")",
           .requeue = true,

@@ -31,10 +31,12 @@ GrayImage HeapAlone(const GrayImage& image, const Frame& frame) {
   KeepToOneThread();
   const cv::Mat pixels(image.height, image.width, CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
+  const cv::Mat powder = pixels < 255;
   cv::Mat labels, stats, centers;
-  cv::connectedComponentsWithStats(pixels < 255, labels, stats, centers, 8);
   GrayImage alone = image;
-  if (stats.rows <= 2) return alone;
+  // Most images, of all that a model predicts, are of one part, which is found in half of the time.
+  if (cv::connectedComponents(powder, labels, 8) <= 2) return alone;
+  cv::connectedComponentsWithStats(powder, labels, stats, centers, 8);
   const int heap = HeapAmong(stats, frame);
   for (int y = 0; y < image.height; ++y) {
     const int* const label = labels.ptr<int>(y);

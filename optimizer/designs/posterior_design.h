@@ -13,6 +13,9 @@ namespace talus::optimizer {
 // roughly only, and less by as much as its prior is narrower than uniform.
 int PosteriorDesignSize(const Domain& domain);
 
+// Sets at each finer scale factor that the search takes after it, before gain alone decides.
+inline constexpr int kFewestFinerSets = 3;
+
 // The domain's guesses, then the hypercube's points that lie in the domain, and Sobol's where
 // constraints leave too few of these.
 Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed);

@@ -56,4 +56,10 @@ double ImageFunctional::SdOfDraws(const Coefficients& at) const {
   return surrogate::StandardDeviation(Draws(at));
 }
 
+Moment ImageFunctional::MomentsAt(const Coefficients& at) const {
+  const Eigen::VectorXd draws = Draws(at);
+  return {.mean = objective_.metric ? draws.mean() : Expected(at),
+          .sd = surrogate::StandardDeviation(draws)};
+}
+
 }  // namespace talus::optimizer

@@ -16,6 +16,11 @@ struct Coefficients {
   Eigen::VectorXd variance;
 };
 
+struct Moment {
+  double mean = 0;
+  double sd = 0;
+};
+
 class ImageFunctional {
  public:
   // `blur`: variance of each element of the code among the target's heaps; the mean image of
@@ -33,6 +38,8 @@ class ImageFunctional {
   // The mean image's value for fixed draws of the coefficients, the same at every point.
   Eigen::VectorXd Draws(const Coefficients& at) const;
   double SdOfDraws(const Coefficients& at) const;
+  // Expected and SdOfDraws together, which of a metric come from the same draws.
+  Moment MomentsAt(const Coefficients& at) const;
 
   Eigen::Index num_draws() const { return normals_.rows(); }
 

@@ -76,6 +76,7 @@ ImportanceSampler::ImportanceSampler(const SampledSpace& space, std::uint64_t se
   points_ =
       Stack(start.points, Inside(*space.domain, space.prior->Draw(num_prior_, Dimension(), seed)));
   in_rounds_.resize(points_.rows(), 0);
+  TellPrior();
 }
 
 void ImportanceSampler::Cover(const LogDensityFunction& density) {
@@ -97,6 +98,7 @@ void ImportanceSampler::Cover(const LogDensityFunction& density) {
       AddRound({points_, weight, width, random_}, space_.num_start / 2);
     }
     TellRounds();
+    TellPrior();
   }
 }
 
@@ -120,13 +122,21 @@ void ImportanceSampler::TellRounds() {
   in_rounds_ = std::move(logs);
 }
 
+// A prior from a campaign has a kernel for each of a thousand draws, so it is asked of new points
+// only.
+void ImportanceSampler::TellPrior() {
+  if (num_prior_ == 0) return;
+  const Eigen::Index left = points_.rows() - in_prior_.size();
+  in_prior_.conservativeResize(points_.rows());
+  in_prior_.tail(left) = space_.prior->LogDensity(points_.bottomRows(left)).array() +
+                         std::log(static_cast<double>(num_prior_));
+}
+
 Eigen::VectorXd ImportanceSampler::LogVolume() const {
   Eigen::MatrixXd logs(points_.rows(), in_rounds_.cols() + (num_prior_ > 0 ? 2 : 1));
   logs.col(0).setConstant(log_even_);
   logs.middleCols(1, in_rounds_.cols()) = in_rounds_;
-  if (num_prior_ > 0) {
-    logs.rightCols(1) = space_.prior->LogDensity(points_).array() + std::log(1.0 * num_prior_);
-  }
+  if (num_prior_ > 0) logs.rightCols(1) = in_prior_;
   Eigen::VectorXd log_volume(points_.rows());
   for (Eigen::Index i = 0; i < logs.rows(); ++i) log_volume[i] = -LogSumExp(logs.row(i));
   return log_volume;

@@ -45,15 +45,17 @@ class ImportanceSampler {
   int Dimension() const { return static_cast<int>(space_.domain->num_parameters); }
   void AddRound(KernelMixture mixture, int num_draws);
   void TellRounds();
+  void TellPrior();
 
   SampledSpace space_;
-  int num_prior_ = 0;
+  int num_prior_ = 0;  // points drawn from the prior; none from a uniform one
   base::Random random_;
   double log_even_ = 0;
   Eigen::MatrixXd points_;
   std::vector<Round> rounds_;
   // Log density of each point (rows) in each round (columns), times its draws.
   Eigen::MatrixXd in_rounds_;
+  Eigen::VectorXd in_prior_;  // likewise, where some are drawn from it
 };
 
 // Throws as the sampler does.

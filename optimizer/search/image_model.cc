@@ -131,9 +131,9 @@ Moments ImageModel::Predict(const Eigen::MatrixXd& points) const {
   Moments moments{.mean = error.mean, .sd = Eigen::VectorXd(points.rows())};
   ForEachPoint(points.rows(), 6 + functional_.num_draws(), [&](Eigen::Index i) {
     const Coefficients at{modes.mean.row(i), modes.variance.row(i)};
-    const double sd_of_draws = functional_.SdOfDraws(at);
-    moments.mean[i] += functional_.Expected(at);
-    moments.sd[i] = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
+    const Moment of_images = functional_.MomentsAt(at);
+    moments.mean[i] += of_images.mean;
+    moments.sd[i] = std::sqrt(of_images.sd * of_images.sd + error.variance[i]);
   });
   return moments;
 }

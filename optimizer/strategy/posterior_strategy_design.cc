@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "optimizer/designs/posterior_design.h"
 #include "optimizer/space/distinct_points.h"
 #include "optimizer/strategy/posterior_strategy.h"
 #include "surrogate/same_point.h"
@@ -11,7 +12,6 @@ namespace talus::optimizer {
 namespace {
 
 constexpr int kOfAddedTest = 8;  // sets of the design, for an experiment that is added later
-constexpr int kFewestFiner = 3;  // sets at a finer scale factor, before gain alone decides
 
 }  // namespace
 
@@ -84,8 +84,8 @@ std::optional<Proposal> PosteriorStrategy::TooFewAt(const Eigen::VectorXd& point
       // Where a table holds no more sets, their repeats must do.
       const auto count = std::count_if(asked.begin(), asked.end(), is_it) +
                          std::count_if(observations_.begin(), observations_.end(), is_it);
-      if (NumSets(asked, kFewestFiner, is_it) == kFewestFiner) continue;
-      if (count >= kFewestFiner * kFewestFiner) continue;
+      if (NumSets(asked, kFewestFinerSets, is_it) == kFewestFinerSets) continue;
+      if (count >= kFewestFinerSets * kFewestFinerSets) continue;
       return Proposal{.point = point,
                       .origin = Origin::kModel,
                       .experiment = e,

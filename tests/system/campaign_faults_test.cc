@@ -289,7 +289,7 @@ TEST_F(CampaignFaults, ATrialThatFindsTheDiskFullStopsTheCampaign) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("disk_full");
   EXPECT_THAT([&] { RunFake(folder, {.disk_full = true}); },
-              ThrowsMessage<base::DiskFull>(
+              ThrowsMessage<base::Unwritten>(
                   AllOf(HasSubstr("trial 1: "), HasSubstr("No space left on device"))));
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);

@@ -452,6 +452,10 @@ class Progress(unittest.TestCase):
         (self.folder / "fast.json").write_text(json.dumps({**scene, "rayleigh_fraction": 0.3}))
         done = talus("validate", str(self.folder / "fast.json"))
         self.assertIn("warning: the time step is 0.3 of the Rayleigh time", done.stdout + done.stderr)
+        (self.folder / "record.json").write_text('{"name": "a", "spec_path": "/there/spec.json"}')
+        done = talus("validate", str(self.folder / "record.json"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is the record of a campaign, which needs no checking; its spec is /there/spec.json", done.stderr)
         plan = self.folder / "plan.json"
         plan.write_text(json.dumps({k: v for k, v in json.loads(self.spec.read_text()).items()
                                     if k in ("powder", "device", "parameters")}))
@@ -469,6 +473,9 @@ class Progress(unittest.TestCase):
         done = talus("validate", str(problem))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("is a problem for `talus optimize`", done.stdout)
+        self.assertIn(f"  candidates        2 of 2 rows of {self.folder}/runs.csv\n", done.stdout)
+        (self.folder / "runs.csv").write_text("a,b\n1,2\n3,4\n3,4\n3,9\n")
+        self.assertIn("candidates        2 of 4 rows of", talus("validate", str(problem)).stdout)
         for change, says in [({"parameters": [{"name": "c", "low": 0, "high": 5}]}, 'has no column "c"'),
                              ({"candidates": "none.csv"}, "none.csv: cannot be read"),
                              ({"target": {"profile": "none.png"}}, "none.png: cannot be read")]:

@@ -176,6 +176,20 @@ TEST_F(Simulate, WhatAnEarlierInputHasLeftGoesWhenARunBeginsAnew) {
   }
 }
 
+// A campaign, a design or a prediction would have taken it for a failure of the parameters for
+// ever.
+TEST_F(Simulate, AFileThatCannotBeWrittenIsNoResultOfTheCase) {
+  Write("case.json", kCase);
+  ASSERT_EQ(Talus("case.json --out out --quiet"), 0) << output_;
+  fs::remove(folder_ / "out/heap.vtp");
+  fs::create_directories(folder_ / "out/heap.vtp/taken");
+  EXPECT_EQ(Talus("case.json --out out --fresh --quiet"), 1);
+  EXPECT_THAT(output_, HasSubstr("heap.vtp: cannot be written: "));
+  EXPECT_FALSE(fs::exists(folder_ / "out/result.json"));
+  fs::remove_all(folder_ / "out/heap.vtp");
+  EXPECT_EQ(Talus("case.json --out out --quiet"), 0) << output_;
+}
+
 TEST_F(Simulate, TwoAtOnceDoNotMixInOneFolder) {
   Write("case.json", LongCase());
   Write("other.json", kCase);

@@ -262,6 +262,7 @@ std::string NextSummary(const NextTable& table) {
 
 std::string NextJson(const NextTable& table) {
   nlohmann::ordered_json json{{"after_trial", table.last_trial},
+                              {"asked", table.asked},
                               {"simulate_first", table.simulate_first},
                               {"width_90", WidthsJson(table, table.width)}};
   if (table.goal) {

@@ -12,6 +12,7 @@
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
+#include "optimizer/designs/posterior_design.h"
 
 namespace talus::campaign {
 namespace {
@@ -161,6 +162,24 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
          trials::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out";
 }
 
+// Where the simulations end with those at coarser scale factors.
+std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
+  const auto finer = static_cast<int>(spec.coarse_graining.Levels().size()) - 1;
+  if (spec.budget.simulations == 0 || finer == 0 || spec.HasOwnProposer()) return std::nullopt;
+  const int design = spec.strategy.num_initial > 0
+                         ? spec.strategy.num_initial
+                         : optimizer::PosteriorDesignSize(SpaceOf(spec).MakeDomain());
+  const int least =
+      static_cast<int>(ExperimentsOf(spec).size()) * (design + optimizer::kFewestFinerSets * finer);
+  if (spec.budget.simulations >= least) return std::nullopt;
+  return base::Counted(spec.budget.simulations, "simulation") + " end before " +
+         base::Counted(optimizer::kFewestFinerSets, "set") +
+         " of each experiment are simulated at scale factor " +
+         base::ShortNumber(spec.coarse_graining.Finest()) +
+         ", and the answer rests on coarser grains: give it " + std::to_string(least) +
+         " at least, or leave that scale factor out";
+}
+
 }  // namespace
 
 RunEstimate EstimateRun(const rigs::Case& rig_case) {
@@ -223,6 +242,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
 std::vector<std::string> EstimateWarnings(const CampaignSpec& spec, const CampaignEstimate& e) {
   std::vector<std::string> warnings = TooLongTrials(spec, e);
   if (const auto few = FewFineTrials(spec, e)) warnings.push_back(*few);
+  if (const auto none = NoFineTrials(spec)) warnings.push_back(*none);
   return warnings;
 }
 

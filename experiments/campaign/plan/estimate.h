@@ -56,8 +56,8 @@ int MostConfirming(const CampaignSpec& spec);
 // The trials, and what follows from them for the campaign.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
-// Where the budget buys so few trials at the smallest scale factor that the answer rests on the
-// coarse ones.
+// Trials that would be stopped by their time cap, and a budget that buys so few trials at the
+// smallest scale factor, or none, that the answer rests on the coarse ones.
 std::vector<std::string> EstimateWarnings(const CampaignSpec& spec,
                                           const CampaignEstimate& estimate);
 

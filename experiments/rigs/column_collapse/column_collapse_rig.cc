@@ -14,6 +14,7 @@
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/gate.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
@@ -81,7 +82,8 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
   // It falls and runs out in a few times √(h/g).
   static double TestTime(const Case& c, double filled_height) {
     const auto& velocity = c.rig.column_collapse.gate_velocity;
-    return 5 * std::sqrt(filled_height / c.gravity) + (velocity ? filled_height / *velocity : 0);
+    return 3 * std::sqrt(filled_height / c.gravity) + (velocity ? filled_height / *velocity : 0) +
+           kRestTime;
   }
 
  protected:

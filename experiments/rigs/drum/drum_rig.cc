@@ -13,6 +13,7 @@
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
@@ -110,7 +111,7 @@ class DrumRig : public RememberingRig<DrumMemory> {
 
   static double TestTime(const Case& c, double) {
     const DrumOptions& drum = c.rig.drum;
-    return (drum.start_turns + drum.turns) * 2 * std::numbers::pi / drum.speed;
+    return (drum.start_turns + drum.turns) * 2 * std::numbers::pi / drum.speed + kRestTime;
   }
 
  protected:

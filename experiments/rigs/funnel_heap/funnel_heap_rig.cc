@@ -9,6 +9,7 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/landing.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
@@ -87,7 +88,7 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   static double Width(const Case& c) { return c.rig.funnel_heap.plate_diameter; }
 
-  static double TestTime(const Case&, double) { return 0; }  // the test is its filling
+  static double TestTime(const Case&, double) { return kRestTime; }  // the test is its filling
 
   // what lies on the plate or is about to, the layer below the rim's top included
   std::vector<engine::Particle> Grains() const override {

@@ -93,11 +93,13 @@ void LiftedTubeRig::Validate(const Case& c, base::Problems& problems) {
                        " m; leave it out or lengthen the tube");
 }
 
-// Until the tube has risen above the heap, which forms a little later than the tube lets it.
+// Until the tube has risen above the heap, which forms a little later than the tube lets it, and
+// the heap has come to rest.
 double LiftedTubeRig::TestTime(const Case& c, double filled_height) {
   const LiftedTubeOptions& options = c.rig.lifted_tube;
   const double late = 2 * std::sqrt(options.tube_inner_diameter / c.gravity);
-  return std::min(filled_height, ExpectHeap(c).height) / options.lift_velocity + late;
+  const ExpectedHeap heap = ExpectHeap(c);
+  return std::min(filled_height, heap.height) / options.lift_velocity + late + heap.rest_time;
 }
 
 // Before the tube is lifted nothing can fall.

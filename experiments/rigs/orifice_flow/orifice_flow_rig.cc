@@ -11,6 +11,7 @@
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/phased/gate.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
@@ -51,15 +52,16 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
   OrificeFlowRig(const Case& c, State state, engine::Simulation simulation)
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
         leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
-    const double test_time = TestTime(c, FilledHeight(c, vessel()));
+    const double filled = FilledHeight(c, vessel());
     Phase discharging = Resting(kDischarging, c.rules.heap, [this] {
       return HasStopped(memory().flow, rig_case().rules.heap.hold_time);
     });
     discharging.hold_time = c.rig.orifice_flow.arch_time;
-    discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
+    const double emptying = EmptyingTime(c, filled) + c.rig.orifice_flow.arch_time;
+    discharging.cap = [longest = 5 * emptying + c.rules.heap.max_time] { return longest; };
     discharging.filmed = true;
     discharging.begin = [this] { scene().RemoveWall(kGate); };
-    SetPhases({discharging}, test_time);
+    SetPhases({discharging}, TestTime(c, filled));
   }
 
   static Vessel VesselOf(const Case& c) {
@@ -94,11 +96,18 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
   static double Width(const Case& c) { return c.rig.orifice_flow.diameter; }
 
   // As Beverloo's law has it, 0.58 ρ_b √g (D - 1.5 d)^2.5, for the larger part of it.
-  static double TestTime(const Case& c, double filled_height) {
+  static double EmptyingTime(const Case& c, double filled_height) {
     const OrificeFlowOptions& options = c.rig.orifice_flow;
     const double rate =
         0.58 * std::sqrt(c.gravity) * std::pow(0.7 * options.orifice, 2.5);  // [m³/s]
-    return filled_height * VesselOf(c).area / rate + options.arch_time;
+    return filled_height * VesselOf(c).area / rate;
+  }
+
+  // A cone empties. On a flat floor a rest stays, which has to be looked at for long.
+  static double TestTime(const Case& c, double filled_height) {
+    const double emptying = EmptyingTime(c, filled_height);
+    if (c.rig.orifice_flow.cone_angle) return 0.85 * emptying;
+    return emptying + c.rig.orifice_flow.arch_time + kRestTime;
   }
 
  protected:

@@ -34,7 +34,7 @@ double SettlingTime(const Case& c) { return c.filling.kind == FillingKind::kPour
 
 double SimulatedTime(const Case& c, double test_time) {
   const double taps = c.filling.taps ? c.filling.taps->count * c.filling.taps->interval : 0;
-  return SettlingTime(c) + test_time + taps + kRestTime;
+  return SettlingTime(c) + test_time + taps;
 }
 
 }  // namespace talus::rigs

@@ -30,11 +30,11 @@ struct Slice {
 // first.
 Slice AdvanceSlice(engine::Simulation& simulation, const SliceEnd& end);
 
-// What filling and a test usually take to come to rest [s].
+// What filling usually takes to come to rest, and most tests [s].
 double SettlingTime(const Case& rig_case);
 inline constexpr double kRestTime = 0.17;
 
-// The whole of a test that takes so long beside filling and coming to rest [s].
+// The whole of a test that takes so long beside pouring and settling [s].
 double SimulatedTime(const Case& rig_case, double test_time);
 
 }  // namespace talus::rigs

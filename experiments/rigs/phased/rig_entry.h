@@ -22,7 +22,8 @@ struct RigEntry {
   // What the rig's own options cannot see by themselves.
   void (*validate)(const Case&, base::Problems&);
   double (*width)(const Case&);  // that its images are scaled by: of plate, drum or box [m]
-  // Simulated, beside filling and coming to rest, of powder that is filled to a height [s].
+  // Usually simulated beside filling, of powder that is filled to a height, with what it takes to
+  // come to rest [s].
   double (*test_time)(const Case&, double filled_height);
 };
 

@@ -15,6 +15,7 @@
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
@@ -190,7 +191,7 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
   static double Width(const Case& c) { return c.rig.shear_cell.diameter; }
 
   static double TestTime(const Case& c, double) {
-    return static_cast<double>(c.rig.shear_cell.stresses.size()) * ShearingTime(c);
+    return static_cast<double>(c.rig.shear_cell.stresses.size()) * ShearingTime(c) + kRestTime;
   }
 
  protected:

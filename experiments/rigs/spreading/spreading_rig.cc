@@ -12,6 +12,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/rigs/phased/gate.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/spreading/layer.h"
 #include "experiments/rigs/spreading/spreading_walls.h"
@@ -37,7 +38,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
   SpreadingRig(const Case& c, State state, engine::Simulation simulation)
       : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
         first_bed_id_(FirstBedId(c, vessel())) {
-    Phase spreading = Lasting("spreading", TestTime(c, 0));
+    Phase spreading = Lasting("spreading", SpreadingTime(c));
     spreading.begin = [this] { Start(); };
     spreading.end = [this] { Stop(); };
     SetPhases({spreading, Resting("resting", c.rules.heap)},
@@ -75,10 +76,12 @@ class SpreadingRig : public RememberingRig<NoMemory> {
 
   static double Width(const Case& c) { return c.rig.spreading.length; }
 
-  static double TestTime(const Case& c, double) {
+  static double SpreadingTime(const Case& c) {
     const SpreadingOptions& o = c.rig.spreading;
     return (o.feed + BehindHeap(c) + o.length) / o.speed;
   }
+
+  static double TestTime(const Case& c, double) { return SpreadingTime(c) + kRestTime; }
 
   // The whole plate from above, the path to the right.
   std::optional<imaging::GrayImage> FromAbove(GrainSpan grains) const override {

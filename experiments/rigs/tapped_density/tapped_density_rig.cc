@@ -10,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
@@ -64,7 +65,7 @@ class TappedDensityRig : public RememberingRig<TappedDensityMemory> {
 
   static double TestTime(const Case& c, double) {
     const TapRule& taps = c.rig.tapped_density.taps;
-    return taps.count * taps.interval;
+    return taps.count * taps.interval + kRestTime;
   }
 
  protected:

@@ -12,6 +12,7 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/gate.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
@@ -94,9 +95,11 @@ class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {
 
   static double Width(const Case& c) { return c.rig.tilting_box.length; }
 
-  // Most powders slide at half of the usual largest angle.
+  // Powders of middling friction slide at 34 to 57 degrees.
   static double TestTime(const Case& c, double) {
-    return 0.5 * c.rig.tilting_box.largest_angle / c.rig.tilting_box.rate;
+    constexpr double kUsualAngle = std::numbers::pi / 4;
+    const TiltingBoxOptions& box = c.rig.tilting_box;
+    return std::min(kUsualAngle, box.largest_angle) / box.rate + (box.lip_height ? kRestTime : 0);
   }
 
  protected:

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -69,8 +70,10 @@ std::string LastLogLines(const std::filesystem::path& folder) {
   return base::Printable(text);
 }
 
-bool LogSaysDiskFull(const std::filesystem::path& folder) {
-  return LastLogLines(folder).find(std::strerror(ENOSPC)) != std::string::npos;
+bool LogSaysUnwritten(const std::filesystem::path& folder) {
+  const std::string said = LastLogLines(folder);
+  const auto says = [&](std::string_view words) { return said.find(words) != std::string::npos; };
+  return says(base::kUnwritten) || says(std::strerror(ENOSPC)) || says(std::strerror(EDQUOT));
 }
 
 }  // namespace talus::trials

@@ -74,7 +74,8 @@ void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& 
 // Why a command has failed, from the end of its log.txt; "" when that says nothing.
 std::string LastLogLines(const std::filesystem::path& folder);
 
-// Whether that end says, in the C library's words, that the disk was full.
-bool LogSaysDiskFull(const std::filesystem::path& folder);
+// Whether that end says that a file could not be written: in this program's words, or that the disk
+// was full or over a quota in the C library's.
+bool LogSaysUnwritten(const std::filesystem::path& folder);
 
 }  // namespace talus::trials

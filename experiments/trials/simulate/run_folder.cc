@@ -247,6 +247,9 @@ void DriveRun(const RunJob& job, const RunFolderOptions& options) {
     started.run->WriteResults(watch.Total());
   } catch (const base::Interrupted&) {
     throw;
+  } catch (const base::Unwritten& error) {  // no result of the case: it is simulated again
+    log.Line(std::string("failed: ") + error.what());
+    throw;
   } catch (const base::Error& error) {
     WriteFailure(job, folder, error.what(), watch);
     log.Line(std::string("failed: ") + error.what());

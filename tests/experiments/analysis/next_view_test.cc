@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr const char* kNextJson = R"({"after_trial": 60,
+constexpr const char* kNextJson = R"({"after_trial": 60, "asked": " tests.json",
   "width_90": {"sliding_friction": 0.5, "rolling_friction": 0.4},
   "candidates": [
     {"kind": "test", "name": "wide plate", "what": "carry it out in 3 runs", "num_simulations": 38,

@@ -92,6 +92,21 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
               HasSubstr("ALARM  restitution 0.6 in place of 0.9 would move rolling_friction"));
 }
 
+// It was kept as a failure of what was moved, also when there was room again.
+TEST_F(SensitivityTest, ADiskThatIsFullIsNoFailureOfASimulation) {
+  const JointView view = Run();
+  EXPECT_THAT(
+      [&] {
+        Find(view, {{"restitution", "0.6"}}, {.disk_full = true});
+      },
+      ::testing::ThrowsMessage<base::Unwritten>(
+          ::testing::AllOf(HasSubstr("No space left on device"),
+                           HasSubstr("; mend this, and the same command goes on"))));
+  const SensitivityTable table = Find(view, {{"restitution", "0.6"}});
+  EXPECT_EQ(Move(table, "restitution").num_failed, 0);
+  EXPECT_TRUE(Of(Move(table, "restitution"), "rolling_friction").Exceeds());
+}
+
 // The answer jumped within a wide region, and a move that no output had felt was blamed for it.
 TEST(Sensitivity, WhatOutputsDoNotFeelMovesNoAnswer) {
   FixedMove move{

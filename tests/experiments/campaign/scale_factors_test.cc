@@ -179,5 +179,24 @@ TEST(Estimate, WarnsOfABudgetThatBuysFewOfTheFinestTrials) {
   EXPECT_TRUE(EstimateWarnings(spec, estimate).empty());
 }
 
+// A design of 4 d + 4 sets at the coarsest, then 3 at each finer one.
+TEST(Estimate, WarnsOfABudgetThatEndsBeforeTheFinestTrials) {
+  const auto warnings = [](int simulations) {
+    const CampaignSpec spec = Read(R"("coarse_graining": {"scale_factors": [4, 3, 2]},
+                                      "budget": {"simulations": )" +
+                                   std::to_string(simulations) + "}");
+    return EstimateWarnings(spec, EstimateCampaign(spec));
+  };
+  const auto least =
+      static_cast<int>(4 * SpaceOf(Read(R"("seed": 1)")).parameters.size() + 4 + 3 * 2);
+  ASSERT_EQ(warnings(least - 1).size(), 1u);
+  EXPECT_EQ(warnings(least - 1).front(),
+            std::to_string(least - 1) +
+                " simulations end before 3 sets of each experiment are simulated at scale factor "
+                "2, and the answer rests on coarser grains: give it " +
+                std::to_string(least) + " at least, or leave that scale factor out");
+  EXPECT_TRUE(warnings(least).empty());
+}
+
 }  // namespace scale_factors_test
 }  // namespace talus::campaign

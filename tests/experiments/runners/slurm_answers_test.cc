@@ -162,12 +162,21 @@ TEST(SlurmQueue, TimesAreReadAsSlurmWritesThem) {
 
 TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {
   for (const char* name : {"PENDING", "RUNNING", "COMPLETING", "REQUEUED", "SUSPENDED",
-                           "RESV_DEL_HOLD", "SPECIAL_EXIT"}) {
+                           "RESV_DEL_HOLD", "SPECIAL_EXIT", "POWER_UP_NODE", "OF_A_LATER_SLURM"}) {
     EXPECT_TRUE(IsUnfinished({name, ""})) << name;
   }
-  for (const char* name : {"COMPLETED", "FAILED", "TIMEOUT", "NODE_FAIL", "BOOT_FAIL", "REVOKED"}) {
+  for (const char* name :
+       {"COMPLETED", "FAILED", "TIMEOUT", "NODE_FAIL", "BOOT_FAIL", "REVOKED", kLost}) {
     EXPECT_FALSE(IsUnfinished({name, ""})) << name;
   }
+}
+
+// A cluster's own greeting may stand before it.
+TEST(SlurmQueue, TheJobIsTheLastNumberThatBeginsALine) {
+  EXPECT_EQ(ParseSubmitted("101\n"), "101");
+  EXPECT_EQ(ParseSubmitted("Welcome to rack 7\n\n102;rack\n"), "102");
+  EXPECT_EQ(ParseSubmitted("103_[0-3]"), "103");
+  EXPECT_EQ(ParseSubmitted("not today\n"), "");
 }
 
 }  // namespace slurm_answers_test

@@ -163,6 +163,22 @@ TEST_F(SlurmRunnerTest, NodeFailureAndPreemptionAreSubmittedAgainAndRecorded) {
   EXPECT_EQ(finished[0].end, JobEnd::kNodeFailure);
   EXPECT_EQ(finished[1].end, JobEnd::kPreempted);
   EXPECT_THAT(finished[0].reason, HasSubstr("submitted again 1 times: it lost its node"));
+  // Should Slurm have lost sight of one only.
+  EXPECT_EQ(base::ReadFile(root_ / "cancelled"), "101_0\n101_1\n");
+}
+
+// It was submitted a second time, and both ran in one folder.
+TEST_F(SlurmRunnerTest, AStateThatIsNotKnownIsOfAJobThatGoesOn) {
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|POWER_UP_NODE|None\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  EXPECT_EQ(runner.NumWaiting(), 1);
+  EXPECT_FALSE(fs::exists(root_ / "cancelled"));
+  Put("queue", "101_0|TIMEOUT|TimeLimit\n");
+  EXPECT_EQ(Finish(runner, 1).size(), 1u);
 }
 
 TEST_F(SlurmRunnerTest, LateResultIsWaitedFor) {

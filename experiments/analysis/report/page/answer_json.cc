@@ -153,6 +153,7 @@ PageValue NextTableJson(const NextTableView& table) {
             {"half_width", NumberJson(unit.per_unit * table.goal->half_width)}};
   }
   return {{"width", NumbersJson(table.width)},
+          {"asked", table.asked},
           {"outdated", table.is_outdated},
           {"goal", goal},
           {"candidates", ListJson(table.candidates, candidate)}};

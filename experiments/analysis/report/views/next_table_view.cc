@@ -68,7 +68,9 @@ Picture PictureOf(const Json& candidate, const fs::path& folder, LeftOut& left_o
 }
 
 NextTableView ViewOf(const Json& json, const Evidence& evidence) {
-  NextTableView view{.width = WidthsOf(json.at("width_90"), evidence), .candidates = {}};
+  NextTableView view{.width = WidthsOf(json.at("width_90"), evidence),
+                     .asked = json.at("asked").get<std::string>(),
+                     .candidates = {}};
   const auto after = json.at("after_trial").get<std::int64_t>();
   view.is_outdated = HaveTrialsEndedSince(evidence, after);
   if (json.contains("goal")) {

@@ -43,6 +43,7 @@ struct NextGoalView {
 
 struct NextTableView {
   std::vector<double> width;  // now
+  std::string asked{};        // what it was made for, as words of the command (NextTable::asked)
   bool is_outdated = false;   // trials have ended since
   std::optional<NextGoalView> goal{};
   std::vector<CandidateView> candidates;
