@@ -5,117 +5,15 @@
 
 #include "base/error.h"
 #include "imaging/photos/plate/edge_blur.h"
+#include "imaging/photos/plate/plate_corner.h"
 #include "imaging/photos/plate/side_lines.h"
+#include "imaging/photos/plate/tilted_view.h"
 
 namespace talus::imaging {
 namespace {
 
 constexpr double kNearLine = 1.0;         // how far a point of the lower edge may be from it [px]
 constexpr std::size_t kFewestLower = 10;  // points that make a lower edge
-
-// Next to a corner the outline is looked at in pixels, or in larger units where the picture is
-// blurred: the blur rounds the corner.
-constexpr int kCornerFrom = 2;  // distances from the side
-constexpr int kCornerTo = 14;
-constexpr double kSteepest = 2.5;         // step between neighbours of one straight outline
-constexpr std::size_t kFewestCorner = 6;  // neighbours that make a straight outline
-constexpr double kCornerRms = 0.25;       // of them to a line
-
-// The photograph seen in the directions of the plate, between its pixels.
-class TiltedView {
- public:
-  TiltedView(const BacklitPhoto& photo, double tilt)
-      : photo_(photo), cosine_(std::cos(tilt)), sine_(std::sin(tilt)) {}
-
-  double threshold() const { return photo_.threshold; }
-
-  // From `origin`, `along` to the right and `up`, both as the plate lies.
-  EdgePoint Point(const EdgePoint& origin, double along, double up) const {
-    return {.x = origin.x + along * cosine_ + up * sine_,
-            .y = origin.y + along * sine_ - up * cosine_};
-  }
-  // Linear between pixel centres; light outside the image.
-  double At(const EdgePoint& point) const {
-    const double x = point.x - 0.5;
-    const double y = point.y - 0.5;
-    const int column = static_cast<int>(std::floor(x));
-    const int row = static_cast<int>(std::floor(y));
-    const RelativeImage& image = photo_.image;
-    if (column < 0 || row < 0 || column + 1 >= image.width || row + 1 >= image.height) return 1;
-    const double right = x - column;
-    const double below = y - row;
-    return (1 - below) * ((1 - right) * image.at(column, row) + right * image.at(column + 1, row)) +
-           below *
-               ((1 - right) * image.at(column, row + 1) + right * image.at(column + 1, row + 1));
-  }
-  // How far one can go from a dark point in steps of `step` (up > 0, down < 0) until it gets light,
-  // within `reach`; nothing when it does not, or when it is light to begin with.
-  std::optional<double> DarkUntil(const EdgePoint& from, double step, double reach) const {
-    double before = At(from);
-    if (before >= photo_.threshold) return std::nullopt;
-    for (double way = step; std::abs(way) <= reach; way += step) {
-      const double here = At(Point(from, 0, way));
-      if (here >= photo_.threshold) {
-        return way - step * (here - photo_.threshold) / (here - before);
-      }
-      before = here;
-    }
-    return std::nullopt;
-  }
-
- private:
-  const BacklitPhoto& photo_;
-  double cosine_;
-  double sine_;
-};
-
-struct Line {
-  double at_zero = 0;
-  double rms = 0;
-};
-
-Line FitLine(const std::vector<EdgePoint>& points) {
-  const auto n = static_cast<double>(points.size());
-  double mean_x = 0, mean_y = 0;
-  for (const EdgePoint& p : points) {
-    mean_x += p.x / n;
-    mean_y += p.y / n;
-  }
-  double sxx = 0, sxy = 0, syy = 0;
-  for (const EdgePoint& p : points) {
-    sxx += (p.x - mean_x) * (p.x - mean_x);
-    sxy += (p.x - mean_x) * (p.y - mean_y);
-    syy += (p.y - mean_y) * (p.y - mean_y);
-  }
-  const double slope = sxy / sxx;
-  return {.at_zero = mean_y - slope * mean_x,
-          .rms = std::sqrt(std::max(syy - slope * sxy, 0.0) / n)};
-}
-
-// `side` -1 left, +1 right; `end` where the side ends, to about a `unit` [px]. Going up from inside
-// the plate meets light at a bare top or at a straight slope; the first powder that stands off the
-// line ends the search.
-PlateCorner FindCorner(const TiltedView& tilted, const EdgePoint& end, int side, double unit) {
-  const double below = 6 * unit;   // start, below the end
-  constexpr double kReach = 45;    // upwards, the unit
-  std::vector<EdgePoint> outline;  // x inwards from the side, y up from `end`
-  for (int distance = kCornerFrom; distance <= kCornerTo; ++distance) {
-    const double inwards = distance * unit;
-    const EdgePoint start = tilted.Point(end, -side * inwards, -below);
-    const std::optional<double> way = tilted.DarkUntil(start, 0.5, kReach * unit);
-    if (!way) break;
-    const double up = *way - below;
-    if (!outline.empty() && std::abs(up - outline.back().y) > kSteepest * unit) break;
-    outline.push_back({.x = inwards, .y = up});
-  }
-  if (outline.size() < kFewestCorner) return {.point = end, .sharp = false};
-  const Line line = FitLine(outline);
-  constexpr double kFarthest = 4;  // a corner farther from the end is something else
-  if (line.rms > kCornerRms * unit || std::abs(line.at_zero) > kFarthest * unit) {
-    return {.point = end, .sharp = false};
-  }
-  return {.point = tilted.Point(end, 0, line.at_zero), .sharp = true};
-}
 
 // Down from the middle of the plate's sides, under every column.
 std::vector<EdgePoint> FindLower(const TiltedView& tilted, const StraightSides& plate, int height) {
@@ -228,10 +126,11 @@ PlateEdges EdgesAlong(const BacklitPhoto& photo, const PlateSides& sides) {
   const TiltedView tilted(photo, edges.tilt);
   edges.lower = FindLower(tilted, plate, photo.image.height);
   edges.seam = FindSeam(tilted, middle, edges.width);
-  constexpr double kUsualBlur = 1.5;  // for which the numbers above are pixels
-  const double unit = std::max(1.0, EdgeBlur(photo.image, plate) / kUsualBlur);
-  edges.top_left = FindCorner(tilted, left, -1, unit);
-  edges.top_right = FindCorner(tilted, right, +1, unit);
+  const double blur = EdgeBlur(photo.image, plate);
+  edges.top_left =
+      FindCorner(tilted, {.point = left, .side = -1, .blur = blur, .plate_width = edges.width});
+  edges.top_right =
+      FindCorner(tilted, {.point = right, .side = +1, .blur = blur, .plate_width = edges.width});
   return edges;
 }
 
