@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text/plain_number.h"
+#include "base/units.h"
 #include "imaging/formats/images/photograph_file.h"
 #include "imaging/light/backlight.h"
 #include "imaging/spheres/projection.h"
@@ -185,6 +186,27 @@ double AngleError(const std::vector<DrumSurface>& surfaces) {
   return StandardError(angles);
 }
 
+// A slope this far to either side is no flat surface's scatter [rad].
+constexpr double kClearSlope = 5 * base::kDegree;
+
+// A series is of one turning; a mirrored picture among them would be averaged away.
+void RequireOneTurning(const std::vector<DrumSurface>& surfaces,
+                       const std::vector<std::filesystem::path>& photos) {
+  const auto leans = [&](double side) {
+    return std::ranges::find_if(surfaces, [side](const DrumSurface& surface) {
+      return surface.slope_angle.defined() && side * surface.slope_angle.value > kClearSlope;
+    });
+  };
+  const auto left = leans(1), right = leans(-1);
+  if (left == surfaces.end() || right == surfaces.end()) return;
+  const auto photo = [&](auto surface) {
+    return photos[static_cast<std::size_t>(surface - surfaces.begin())].string();
+  };
+  throw base::ConfigError(photo(right) + ": the powder is higher on the right, in " + photo(left) +
+                          " on the left: a series is of a drum that turns one way; mirror the "
+                          "pictures that are mirrored, or measure them by themselves");
+}
+
 // Σ height · powder / (R · pixels of the disc) [-]: of a segment 2/3 (1 − d²)^(3/2) / π below the
 // axis, d its chord's distance / R; the same above it for the picture's negative.
 double MomentAboveAxis(const DrumMap& map) {
@@ -276,6 +298,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   std::vector<DrumSurface> each;
   for (const GrayImage& image : photos.images)
     each.push_back(MeasureSurface(MapOf(image, place, name)));
+  RequireOneTurning(each, options.photos);
   drum.angle.standard_error = AngleError(each);
   drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
   return drum;

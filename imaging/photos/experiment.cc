@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -123,12 +125,21 @@ void CompareRuns(Experiment& result) {
   }
 }
 
+PhotoSet Without(PhotoSet set, const std::vector<UnusablePhoto>& left_out) {
+  const auto is_out = [&](const PhotoFile& view) {
+    return std::ranges::find(left_out, view.path, &UnusablePhoto::photo) != left_out.end();
+  };
+  for (PhotoFiles& run : set.runs) std::erase_if(run.views, is_out);
+  std::erase_if(set.runs, [](const PhotoFiles& run) { return run.views.empty(); });
+  return set;
+}
+
 void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   const PhotoSet set = NamePhotos(options);
-  result.reading = ReadingText(set);
   std::vector<Photo> photos = ReadPhotos(options, set);
   PhotoCollection collection = CollectPhotos(options, set, std::move(photos));
   result.left_out = std::move(collection.left_out);
+  result.reading = ReadingText(Without(set, result.left_out));
   result.warnings = std::move(collection.warnings);
   WarnOfUnread(options, set, result.warnings);
   const Placement placement = Place(options, collection);
@@ -184,6 +195,12 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
       "plate_diameter", plate_diameter, "is another than that of \"frame\"; they are of one plate");
   problems.Require(map_heaps == 1 || !map.empty(), "map_heaps", map_heaps,
                    "is of a map; photographs tell their heaps by their names");
+  problems.Require(pattern.empty() || map.empty(), "pattern",
+                   "is of the photographs in a folder, not of a map: remove it");
+  problems.Require(powder == PowderLook::kAuto || map.empty(), "powder",
+                   "is of photographs: in a map black means powder");
+  problems.Require(!allow_missing_views || map.empty(), "allow_missing_views",
+                   "is of photographs, not of a map: remove it");
   problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
@@ -207,8 +224,11 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   } catch (const base::ConfigError& error) {
     problems.Add("scale", error.what());
   }
+  std::set<std::string> names;
   for (const PhotoRun& run : runs) {
     problems.Require(!run.photos.empty(), "runs", "run \"" + run.name + "\" has no photographs");
+    problems.Require(names.insert(run.name).second, "runs",
+                     "run \"" + run.name + "\" stands there twice: give each heap its own name");
   }
 }
 

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <string>
 
+#include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/heap/metrics.h"
 
@@ -11,6 +13,13 @@ namespace talus::imaging {
 namespace {
 
 std::string PlaceOf(std::size_t picture) { return "film[" + std::to_string(picture) + "]: "; }
+
+// "3 runs (01, 02, 04)"
+std::string RunsOf(const Experiment& picture) {
+  const auto name = [](const MeasuredRun& run) { return run.name; };
+  return base::Counted(std::ssize(picture.runs), "run") +
+         (picture.runs.empty() ? "" : " (" + base::Joined(picture.runs, ", ", name) + ")");
+}
 
 void RequireOneFilm(std::span<const Experiment> pictures) {
   for (std::size_t i = 1; i < pictures.size(); ++i) {
@@ -22,10 +31,9 @@ void RequireOneFilm(std::span<const Experiment> pictures) {
           "has another size or its plate elsewhere than the first picture: one camera takes a film "
           "and stands still; give all its pictures one size, and the plate's place as \"frame\"");
     }
-    if (pictures[i].runs.size() == pictures.front().runs.size()) continue;
-    throw base::ConfigError(PlaceOf(i) + "is of " + std::to_string(pictures[i].runs.size()) +
-                            " runs, the first picture of " +
-                            std::to_string(pictures.front().runs.size()) +
+    const std::string runs = RunsOf(pictures[i]), first = RunsOf(pictures.front());
+    if (runs == first) continue;
+    throw base::ConfigError(PlaceOf(i) + "is of " + runs + ", the first picture of " + first +
                             ": give the same runs in the same order at each time");
   }
 }

@@ -101,8 +101,9 @@ std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings) {
       result.push_back(warning);
       result.back().num_photos = static_cast<int>(count);
     } else if (warning.value > first->value) {
-      first->photo = warning.photo;
-      first->value = warning.value;
+      const int count_of_all = first->num_photos;
+      *first = warning;
+      first->num_photos = count_of_all;
     }
   }
   return result;

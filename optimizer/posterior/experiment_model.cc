@@ -234,11 +234,20 @@ Moments ExperimentModel::Objective(const Eigen::MatrixXd& points) const {
   const ModeMoments modes = outputs_.PredictModes(points);
   Moments moments{.mean = Eigen::VectorXd(points.rows()), .sd = Eigen::VectorXd(points.rows())};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Coefficients at{modes.mean.row(i), modes.variance.row(i)};
-    moments.mean[i] = objective_->Expected(at);
-    moments.sd[i] = objective_->SdOfDraws(at);
+    const Moment at = objective_->MomentsAt({modes.mean.row(i), modes.variance.row(i)});
+    moments.mean[i] = at.mean;
+    moments.sd[i] = at.sd;
   }
   return moments;
+}
+
+Eigen::VectorXd ExperimentModel::ExpectedObjective(const Eigen::MatrixXd& points) const {
+  const ModeMoments modes = outputs_.PredictModes(points);
+  Eigen::VectorXd expected(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    expected[i] = objective_->Expected({modes.mean.row(i), modes.variance.row(i)});
+  }
+  return expected;
 }
 
 double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {

@@ -80,6 +80,7 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   asked_.reset();
   asked_sample_.reset();
   outlook_.reset();
+  answer_.reset();
   observations_.push_back(WithoutImage(observation));
   Told& told = told_[static_cast<std::size_t>(observation.experiment)];
   const int level = levels_.LevelOf(observation.scale_factor);

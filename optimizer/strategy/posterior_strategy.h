@@ -133,6 +133,7 @@ class PosteriorStrategy : public Strategy {
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
   Answer RecommendUnmodelled() const;
+  Answer RecommendModelled();
   void Summarise(Answer& answer);
   std::vector<NuisanceWeight> NuisanceWeights(const Eigen::MatrixXd& draws) const;
   void AddPrior(PosteriorSummary& summary) const;
@@ -149,6 +150,7 @@ class PosteriorStrategy : public Strategy {
   std::optional<AskedDensity> asked_;
   std::optional<PosteriorSample> asked_sample_;
   std::optional<Outlook> outlook_;
+  std::optional<Answer> answer_;
 };
 
 }  // namespace talus::optimizer

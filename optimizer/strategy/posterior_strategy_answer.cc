@@ -104,8 +104,13 @@ Answer PosteriorStrategy::RecommendUnmodelled() const {
   return answer;
 }
 
+// A campaign that ends asks four times.
 Answer PosteriorStrategy::Recommend() {
-  if (!CanModel()) return RecommendUnmodelled();
+  if (!answer_) answer_ = CanModel() ? RecommendModelled() : RecommendUnmodelled();
+  return *answer_;
+}
+
+Answer PosteriorStrategy::RecommendModelled() {
   constexpr int kMostTied = 200;
   Answer answer;
   Summarise(answer);
@@ -129,7 +134,7 @@ Answer PosteriorStrategy::Recommend() {
     answer.predicted_sd = at.sd[0];
     answer.noise_sd = image->ObjectiveNoise(answer.point);
     const SobolIndices sobol = EstimateSobolIndices(
-        [&](const Eigen::MatrixXd& points) { return image->Objective(points).mean; },
+        [&](const Eigen::MatrixXd& points) { return image->ExpectedObjective(points); },
         {.dimension = domain_.num_parameters, .num_base = 512, .seed = options_.seed});
     answer.sobol_first = sobol.first;
     answer.sobol_total = sobol.total;

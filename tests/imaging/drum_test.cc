@@ -233,6 +233,19 @@ TEST(Drum, SeriesHasErrors) {
   EXPECT_NEAR(drum.surface_sd, 4.1e-4, 0.4e-4);
 }
 
+// Their average is no powder's: a fill of a half and a slope of nothing.
+TEST(Drum, ASeriesWithAMirroredPictureIsRefused) {
+  const fs::path right = Write("right", Draw({.angle = 35 * kDegree}));
+  const fs::path mirrored = Write("mirrored", Draw({.angle = -35 * kDegree}));
+  for (const std::vector<fs::path>& photos :
+       {std::vector{right, mirrored}, std::vector{right, right, mirrored}}) {
+    EXPECT_THAT(ErrorOf({.photos = photos, .diameter = 0.084}),
+                HasSubstr(mirrored.string() + ": the powder is higher on the right, in " +
+                          right.string() + " on the left"));
+  }
+  EXPECT_EQ(ErrorOf({.photos = {mirrored, mirrored}, .diameter = 0.084}), "");
+}
+
 // A drum that turns the other way is the mirror image of one that turns as the rig does.
 TEST(Drum, ProfileTurnsClockwise) {
   for (const double angle : {33 * kDegree, -33 * kDegree}) {

@@ -129,6 +129,12 @@ TEST(Film, TimesThatDoNotGoTogetherAreRefused) {
   other.runs = {{.name = "a", .profile = one.aehp, .views = {}}};
   const Experiment uneven[] = {one, other};
   EXPECT_THROW(JoinedFilm(uneven), base::ConfigError);
+  // As many, of which another had a photograph that could not be used: different heaps were joined.
+  one.runs = {{.name = "b", .profile = one.aehp, .views = {}}};
+  const Experiment others[] = {one, other};
+  EXPECT_THAT([&] { JoinedFilm(others); },
+              testing::ThrowsMessage<base::ConfigError>(
+                  HasSubstr("film[1]: is of 1 run (a), the first picture of 1 run (b)")));
   EXPECT_THAT(ErrorOf(FilmOf({})), HasSubstr("film: is empty"));
   ExperimentOptions both = FilmOf({whole});
   both.map = whole;

@@ -194,6 +194,12 @@ TEST(ImageFile, TransparentTiffIsSeenBeforeWhite) {
   EXPECT_NEAR(ReadGrayImage(file).pixels[0], 157, 1);
 }
 
+// Some programs save 8 bits so: it was called black everywhere.
+TEST(ImageFile, EightBitsInSixteenAreReadAsTheyAre) {
+  const auto path = WriteTiffPixel<std::uint16_t>({200}, PHOTOMETRIC_MINISBLACK, {});
+  EXPECT_EQ(ReadGrayImage(path).pixels[0], 200);
+}
+
 // The same red in 16 bits, the colours as they are or multiplied by alpha; what is not said to be
 // alpha was taken for it, and what is multiplied was multiplied again.
 TEST(ImageFile, SixteenBitTiffSaysWhatIsItsAlpha) {

@@ -52,6 +52,25 @@ TEST(Map, FrameBlanksWhatIsBelowTheBaseline) {
   EXPECT_THROW(ReadMap(TempFile("plate.png"), 0.012, {}), base::ConfigError);
 }
 
+// A simulated picture shows the disc alone; the map was compared with its ring and all beside it.
+TEST(Map, OfADrumOnlyTheDiscCounts) {
+  WritePng(TempFile("disc.png"),
+           {.width = 60, .height = 60, .pixels = std::vector<std::uint8_t>(60 * 60, 0)});
+  const Frame frame{.width = 60,
+                    .height = 60,
+                    .pixel_size = 1e-3,
+                    .center_x = 30,
+                    .baseline = 60,
+                    .plate_diameter = 0.06,
+                    .disc_diameter = 0.05};
+  const Profile profile = ReadMap(TempFile("disc.png"), 0.06, frame);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      EXPECT_EQ(profile.image.at(x, y), frame.Knows(x, y) ? 0 : 255) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(Map, WhiteAndBlackMapsAreErrorsThatNameTheFile) {
   for (const std::uint8_t level : {0, 255}) {
     WritePng(TempFile("plain.png"),

@@ -207,6 +207,19 @@ TEST(PhotoDoubt, PhotographsOfTwoKindsOfLightAreWarnedOf) {
   EXPECT_THAT(WarningText(warnings[0]), HasSubstr("lit otherwise than most: 1 photographs"));
 }
 
+// It was the darkest, and had the first one's word.
+TEST(PhotoDoubt, TheWorstOfSeveralHasItsOwnReason) {
+  std::vector<PhotoWarning> warnings(
+      5, {.doubt = PhotoDoubt::kOtherLight, .value = 2, .reason = "brighter"});
+  warnings.back() = {
+      .doubt = PhotoDoubt::kOtherLight, .photo = "dark.png", .value = 4, .reason = "darker"};
+  const std::vector<PhotoWarning> gathered = Gathered(warnings);
+  ASSERT_EQ(gathered.size(), 1u);
+  EXPECT_EQ(gathered[0].num_photos, 5);
+  EXPECT_THAT(WarningText(gathered[0]),
+              testing::AllOf(HasSubstr("dark.png"), HasSubstr("4 times darker")));
+}
+
 // Its outline came out the same, and nothing was said of it.
 TEST(PhotoDoubt, APhotographUnderLessLightIsNamed) {
   const fs::path folder = GoodFolder("darker");

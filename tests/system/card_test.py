@@ -167,9 +167,14 @@ class Card(unittest.TestCase):
         damping = 2 * math.sqrt(5 / 6) * -log_e / math.hypot(log_e, math.pi)
         self.assertAlmostEqual(number(mercury, r"SlidingDissipation\((.*)\)") * math.sqrt(shear / g_star) /
                                damping, 1, delta=1e-5)
-        self.assertAlmostEqual(number(mercury, r"RollingFrictionCoefficient\((.*)\)"), 0.1, delta=1e-6)
-        self.assertAlmostEqual(number(mercury, r"RollingStiffness\((.*)\)") * (2 * radius / 2) ** 2 / k_r,
-                               1, delta=1e-5)  # an arm of 2 R*
+        # On an arm of R*; its spring, that of sliding, cannot be set.
+        self.assertAlmostEqual(number(mercury, r"RollingFrictionCoefficient\((.*)\)"), 0.2, delta=1e-6)
+        inertia = 0.7 * mass * radius**2
+        c_r = 2 * m["rolling_damping"] * math.sqrt(inertia * k_r)  # R3
+        self.assertAlmostEqual(number(mercury, r"RollingDissipation\((.*)\)") * (radius / 2) ** 2 / c_r, 1, delta=1e-5)
+        self.assertNotIn("RollingStiffness", mercury)
+        stiffer = 12 * g_star / (2.25 * 4 / 3 * e_star * m["rolling_friction"] ** 2)
+        self.assertAlmostEqual(number(mercury, r"here (\S+) times as stiff") / stiffer, 1, delta=0.05)
         lethe = card(self.folder, "lethe")
         self.assertEqual(number(lethe, r"rolling friction particles = (\S+)"), 0.2)
         self.assertEqual(number(lethe, r"rolling friction wall = (\S+)"), 0.2)
@@ -288,6 +293,24 @@ class Card(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout[-2000:])
         height = float((self.folder / "last.dump").read_text().split()[-1])
         self.assertAlmostEqual(height, DIAMETER / 2, delta=0.01 * DIAMETER)
+
+    # Debian's LAMMPS is of 2022. Later ones damp by tsuji what it does not say, or refuse it.
+    def test_lammps_of_later_years_has_a_line_of_its_own(self):
+        text = card(self.folder, "lammps")
+        here, later = (re.search(rf"^{mark}pair_coeff (.*)", text, re.MULTILINE).group(1).split() for mark in ("", "# "))
+        self.assertEqual((here[-1], later[-1], later[4]), ("tsuji", "coeff_restitution", "0.6"))
+        self.assertEqual(here[:4] + here[5:-1], later[:4] + later[5:-1])
+        radius, m = DIAMETER / 2, MATERIAL
+        mass = 4 / 3 * math.pi * radius**3 * m["density"]
+        e_star = m["youngs_modulus"] / 2 / (1 - m["poisson_ratio"] ** 2)
+        contact = math.sqrt(radius / 2 * (10 * mass * 9.81 / (4 / 3 * e_star * math.sqrt(radius / 2))) ** (2 / 3))
+        log_e = math.log(m["restitution"])
+        # (N3) over s m*, which is what `damping viscoelastic` is given.
+        damping = 2 * math.sqrt(5 / 6) * -log_e / math.hypot(log_e, math.pi) * math.sqrt(2 * e_star / contact / (mass / 2))
+        text = card(self.folder, "lammps", surface_energy=1e-4, models={"adhesion": "dmt"})
+        later = re.search(r"^# pair_coeff (.*)", text, re.MULTILINE).group(1).split()
+        self.assertEqual((later[2], later[-1]), ("dmt", "viscoelastic"))
+        self.assertAlmostEqual(float(later[4]) / damping, 1, delta=1e-4)
 
     # f = 1, so that the powder's surface energy is the one used. Between two surfaces of γ, 2πγ*R* of
     # ours is the 4πγR* of LAMMPS and YADE.

@@ -1,8 +1,8 @@
 # The lifted-cylinder heap test for YADE, SI units. talus fills in what stands in double braces.
 # Contact: Ip2_FrictMat_FrictMat_MindlinPhys with one restitution in both directions. Rolling: krot is
 # a constant, that of two grains which bear ten grain weights (R1 of docs/physics.md); the moment is
-# limited by eta (R1 + R2)/2 |F_n|, so that eta is half of rolling_friction. Walls count as a grain's
-# twin: they have the powder's material, and half of its rolling friction.
+# limited by eta (R1 + R2)/2 |F_n|, so that eta is half of rolling_friction. A facet counts as a sphere
+# of twice the grain's radius: with the same eta it has three quarters of a wall's rolling friction.
 from math import atan, cos, pi, sin, sqrt
 
 mass = {{ density }} * pi * {{ mean_diameter }}**3 / 6

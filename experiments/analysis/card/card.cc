@@ -210,7 +210,8 @@ TypicalContact TypicalContactOf(const Card& card) {
   const double force = kGrainWeights * mass * card.gravity;
   const double hertz = contact.pair.normal_stiffness * std::sqrt(contact.r_star);
   const double overlap = std::pow(force / hertz, 2.0 / 3);
-  contact.normal_stiffness = hertz * std::sqrt(overlap);
+  contact.radius = std::sqrt(contact.r_star * overlap);
+  contact.normal_stiffness = contact.pair.normal_stiffness * contact.radius;
   return contact;
 }
 

@@ -113,6 +113,7 @@ struct TypicalContact {
   engine::PairConstants pair;
   double r_star = 0;            // [m]
   double m_star = 0;            // [kg]
+  double radius = 0;            // of the contact, s = √(R*δ) [m]
   double normal_stiffness = 0;  // k_n [N/m] (N1)
 };
 TypicalContact TypicalContactOf(const Card& card);

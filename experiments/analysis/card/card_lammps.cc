@@ -5,6 +5,8 @@
 //   rolling      sds has constants where EPSD grows with the load: k_roll = k_r/R*² = 2.25 k_n μ_r²
 //                and γ_roll = C_r/R*², at the typical contact. The limit μ_r |F_n| R* is the same.
 //   γ            4πγR* of two equal surfaces in LAMMPS is 2πγ* R* here, so γ*/2 is given.
+// All this is for Debian's LAMMPS of 2022. Later ones refuse tsuji with adhesion, and that of
+// 2 September 2026 damps √2 as much by it; a line for them stands beside.
 #include <cmath>
 #include <sstream>
 
@@ -25,9 +27,26 @@ struct PairInput {
   engine::PairConstants pair;
 };
 
-std::string NormalModel(const Card& card, const PairInput& input) {
-  const double restitution =
-      TsujiRestitution(engine::HarmonicMean(input.a.restitution, input.b.restitution));
+// Of the LAMMPS that a line is for.
+enum class Version { kOf2022, kLater };
+
+// What is given as the damping of the normal model, and the model that takes it.
+struct Damping {
+  double value = 0;
+  const char* model = "tsuji";
+};
+
+// coeff_restitution is √5 β(e) itself. viscoelastic is η₀ s m*, which is ours at the typical
+// contact.
+Damping DampingOf(const Card& card, const PairInput& input, Version version) {
+  const double restitution = engine::HarmonicMean(input.a.restitution, input.b.restitution);
+  if (version == Version::kOf2022) return {TsujiRestitution(restitution), "tsuji"};
+  if (!(input.pair.surface_energy > 0)) return {restitution, "coeff_restitution"};
+  const TypicalContact typical = TypicalContactOf(card);
+  return {input.pair.normal_damping / std::sqrt(typical.radius * typical.m_star), "viscoelastic"};
+}
+
+std::string NormalModel(const Card& card, const PairInput& input, const Damping& damping) {
   const bool adhesive = input.pair.surface_energy > 0;
   const std::string model = !adhesive                                        ? "hertz/material "
                             : card.models.adhesion == engine::Adhesion::kDmt ? "dmt "
@@ -36,7 +55,7 @@ std::string NormalModel(const Card& card, const PairInput& input) {
   const double poisson = (input.a.poisson_ratio + input.b.poisson_ratio) / 2;
   const double modulus = 2 * (1 - poisson * poisson) * input.pair.y_star;
   std::string text =
-      model + CardNumber(modulus) + " " + CardNumber(restitution) + " " + CardNumber(poisson);
+      model + CardNumber(modulus) + " " + CardNumber(damping.value) + " " + CardNumber(poisson);
   if (adhesive) text += " " + CardNumber(input.pair.surface_energy / 2);
   return text;
 }
@@ -55,13 +74,26 @@ std::string RollingModel(const Card& card, const PairInput& input) {
          CardNumber(friction);
 }
 
-std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b) {
+std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b,
+                      Version version = Version::kOf2022) {
   const PairInput input{a, b, engine::MakePairConstants(a, b, card.models)};
   const double g_star = input.pair.shear_stiffness / 8;
-  const double damping = 2 * std::sqrt(g_star / input.pair.y_star);
-  return NormalModel(card, input) + " tangential mindlin NULL " + CardNumber(damping) + " " +
-         CardNumber(input.pair.sliding_friction) + " " + RollingModel(card, input) +
-         " damping tsuji";
+  const double tangential = 2 * std::sqrt(g_star / input.pair.y_star);
+  const Damping damping = DampingOf(card, input, version);
+  return NormalModel(card, input, damping) + " tangential mindlin NULL " + CardNumber(tangential) +
+         " " + CardNumber(input.pair.sliding_friction) + " " + RollingModel(card, input) +
+         " damping " + damping.model;
+}
+
+// The pair's line for a LAMMPS in which the other is refused or means something else.
+std::string LaterLine(const Card& card, const engine::Material& grain) {
+  const bool adhesive = engine::MakePairConstants(grain, grain, card.models).surface_energy > 0;
+  return (adhesive
+              ? "# LAMMPS since 2023 refuses `damping tsuji` with adhesion. There, and "
+                "likewise at walls, the dashpot\n# of a contact that bears ten grain weights:\n"
+              : "# LAMMPS of 2 September 2026 and later damps more by `damping tsuji`. There, "
+                "and likewise at walls:\n") +
+         std::string("# pair_coeff * * ") + PairModel(card, grain, grain, Version::kLater) + "\n";
 }
 
 // "fix plate2 all wall/gran/region granular … region plate2": of a body of this material.
@@ -151,16 +183,23 @@ std::string LammpsRemarks(const Card& card) {
   std::string text = RestitutionRemarks(card);
   if (card.models.adhesion == engine::Adhesion::kDmt) {
     text +=
-        "# Adhesion raises the limits of sliding and rolling in LAMMPS, not in talus, and acts in "
-        "contact only.\n";
-  } else if (card.models.adhesion == engine::Adhesion::kJkr &&
-             card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
-    text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
+        "# The limits of sliding and rolling are of the net force in LAMMPS of 2022, of that and "
+        "twice the pull in\n# later ones, of the elastic force in talus. Adhesion acts in contact "
+        "only.\n";
+  } else if (card.models.adhesion == engine::Adhesion::kJkr) {
+    text +=
+        "# LAMMPS pulls beyond touch, up to 1.5 pi gamma* R*, and its dashpot goes with the radius "
+        "of "
+        "the JKR contact:\n# slow collisions rebound where they stick in talus.\n";
+    if (card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
+      text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
+    }
   }
   if (card.models.rolling == engine::Rolling::kEpsd) {
     text +=
         "# rolling sds: stiffness and damping of a contact that bears ten grain weights; its limit "
-        "caps spring\n# and dashpot together.\n";
+        "caps spring\n# and dashpot together. At walls, too, those of two grains: the spring is a "
+        "quarter stiffer than ours there.\n";
   } else if (card.models.rolling != engine::Rolling::kNone) {
     text += RollingNotIncluded(card, "LAMMPS", "# ");
   }
@@ -196,7 +235,7 @@ std::string LammpsCard(const Card& card) {
        << "pair_style granular\n";
   const engine::Material grain = ActingOn(card, 0, 0);
   text << "pair_coeff * * " << PairModel(card, grain, grain) << "\n"
-       << LammpsWalls(card) << LammpsSizes(card);
+       << LaterLine(card, grain) << LammpsWalls(card) << LammpsSizes(card);
   text << "timestep " << CardNumber(card.time_step) << "\n";
   return text.str();
 }

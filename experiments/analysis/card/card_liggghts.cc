@@ -1,6 +1,7 @@
-// LIGGGHTS-PUBLIC 3.8: hertz, history, epsd and epsd2 are (N1)–(N4), (T1)–(T3), (R1)–(R4) with
-// f = 0 and (R6), so that nothing is converted. Pair values are given as a matrix, as the pairs
-// state them or mixed here by (P5).
+// LIGGGHTS-PUBLIC 3.8: hertz, history, epsd and epsd2 are (N1)–(N4), (T1), (T3), (R1)–(R4) with
+// f = 0 and (R6), so that nothing is converted. The limit of (T2) caps its spring alone; the
+// dashpot is added where it does not slide. Pair values are given as a matrix, as the pairs state
+// them or mixed here by (P5).
 #include <algorithm>
 #include <sstream>
 
@@ -66,9 +67,14 @@ std::string LiggghtsLimits(const Card& card) {
 
 std::string LiggghtsRemarks(const Card& card) {
   std::string text = LiggghtsLimits(card);
+  text +=
+      "# Sliding limits the spring alone in LIGGGHTS, spring and dashpot in talus: spins after "
+      "grazing collisions differ\n# by some percent where the restitution is 0.5, by up to a half "
+      "where it is 0.2.\n";
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text +=
-        "# NOT INCLUDED: the adhesion. LIGGGHTS-PUBLIC has SJKR only, whose force is another one: "
+        "# NOT INCLUDED: the adhesion. LIGGGHTS-PUBLIC has SJKR and liquid bridges, whose forces "
+        "are others: "
         "this card\n# without it is not the calibrated powder.\n";
   }
   if (card.models.rolling == engine::Rolling::kViscous) {

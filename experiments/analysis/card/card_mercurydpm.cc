@@ -2,33 +2,43 @@
 //   Y, ν     effective moduli of the pair: E* (P3), and 3/2 G* (P4): its tangential spring is
 //            (2/3) 8 G √(R*δ) per length, ours 8 G* √(R*δ)
 //   η_t      sliding dissipation × √(m* 8 G √(R*δ)) is our dashpot (N4)
-//   μ_r      the rolling force is limited by μ |F_n| and acts on an arm of 2R*, ours on R*: μ_r/2
-//   k_r      the rolling stiffness is a constant [N/m] on that arm: k_r/(2R*)² = (9/16) k_n μ_r²,
-//            at the typical contact; the dissipation is C_r/(2R*)²
+//   μ_r      the rolling force is limited by μ |F_n| on an arm of R*, as ours
+//   C_r      the rolling dissipation is C_r/R*², at the typical contact
+// Its rolling spring is the tangential one, 8 G √(R*δ) on that arm, and cannot be set.
 #include <cmath>
 #include <sstream>
 
+#include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
+namespace {
+
+// C_r/R*² of two equal grains [kg/s] (R3).
+double RollingDissipation(const TypicalContact& typical) {
+  const double radius = 2 * typical.r_star;
+  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;  // I*
+  return typical.pair.rolling_damping * std::sqrt(typical.radius * inertia) / typical.r_star;
+}
+
+}  // namespace
 
 std::string MercuryDpmCard(const Card& card) {
   const engine::Material powder = ActingOn(card, 0, 0);  // these lines are of two grains
   const TypicalContact typical = TypicalContactOf(card);
-  const double friction = typical.pair.rolling_friction;
-  const double stiffness = 9.0 / 16 * typical.normal_stiffness * friction * friction;
-  const double radius = 2 * typical.r_star;
-  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;
-  const double dissipation =
-      powder.rolling_damping * std::sqrt(inertia * stiffness) / typical.r_star;
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   std::ostringstream text;
   text << CardHead(card, "MercuryDPM", "// ") << WallsNotIncluded(card, "// ")
        << PairsNotIncluded(card, 1, "// ")
-       << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's); rolling "
-          "friction\n"
-       << "// mu_r/2 (its arm is 2 R*); rolling stiffness and dissipation of a contact that bears "
-          "ten grain weights.\n";
+       << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's).\n";
+  if (rolls) {
+    text << "// Rolling dissipation of a contact that bears ten grain weights. The rolling spring "
+            "is "
+            "the tangential one\n// and cannot be set: here "
+         << base::ShortNumber(1.5 * typical.pair.shear_stiffness / typical.pair.rolling_stiffness,
+                              2)
+         << " times as stiff as that of the calibrated law.\n";
+  }
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text << "// NOT INCLUDED: the adhesion; choose an adhesive species and calibrate with it.\n";
   }
@@ -46,9 +56,9 @@ std::string MercuryDpmCard(const Card& card) {
        << ");\nspecies.setSlidingFrictionCoefficient(" << CardNumber(powder.sliding_friction)
        << ");\n";
   if (rolls) {
-    text << "species.setRollingStiffness(" << CardNumber(stiffness) << ");\n"
-         << "species.setRollingDissipation(" << CardNumber(dissipation) << ");\n"
-         << "species.setRollingFrictionCoefficient(" << CardNumber(friction / 2) << ");\n";
+    text << "species.setRollingDissipation(" << CardNumber(RollingDissipation(typical)) << ");\n"
+         << "species.setRollingFrictionCoefficient(" << CardNumber(powder.rolling_friction)
+         << ");\n";
   }
   text << "setTimeStep(" << CardNumber(card.time_step) << ");\n";
   return text.str();

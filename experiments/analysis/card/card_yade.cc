@@ -2,8 +2,8 @@
 //   μ_t      frictionAngle = atan μ_t
 //   μ_r      the moment is limited by eta Rmean |F_n| with Rmean = (R₁ + R₂)/2, ours by μ_r R*
 //   |F_n|:
-//            eta = μ_r/2 for two equal grains; a wall counts as a grain's twin in YADE's R* and
-//            Rmean, so that it takes the same eta for half of our R*: eta = μ_r there.
+//            eta = μ_r/2 for two equal grains. A Wall counts as a grain's twin, so that Rmean is
+//            our R* there: eta = μ_r. A facet counts as a sphere of 2R: Rmean = 1.5R, eta = 2μ_r/3.
 //   k_r      krot is a constant [N m/rad]; taken at the typical contact.
 //   γ        pulls with 4πγR*, which for two equal surfaces is ours.
 #include <algorithm>
@@ -60,19 +60,19 @@ std::string YadeCard(const Card& card) {
   std::ostringstream text;
   text << CardHead(card, "YADE (HertzMindlin)", "# ") << WallsNotIncluded(card, "# ")
        << PairsNotIncluded(card, 1, "# ")
-       << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; walls: mu_r); "
-          "krot\n"
-       << "# of a contact that bears ten grain weights. YADE's spring in rolling has no dashpot, "
-          "and\n"
-       << "# its normal force is cut at zero.\n";
+       << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; at a Wall mu_r, "
+          "at facets 2 mu_r/3);\n"
+       << "# krot of a contact that bears ten grain weights. YADE's spring in rolling has no "
+          "dashpot, and its normal force\n"
+       << "# is cut at zero: it rebounds with 0.90 for 0.9, 0.63 for 0.6, 0.40 for 0.3.\n";
   if (!rolls && card.models.rolling != engine::Rolling::kNone) {
     text << RollingNotIncluded(card, "YADE", "# ");
   }
   if (card.models.adhesion == engine::Adhesion::kJkr) {
     text << "# NOT INCLUDED: JKR adhesion, which YADE has not.\n";
   } else if (adheres) {
-    text << "# Adhesion raises the limit of sliding in YADE, not in talus, and acts in contact "
-            "only.\n";
+    text << "# Adhesion acts in contact only. YADE limits rolling by the net force, talus by the "
+            "elastic one; at a Wall it\n# pulls with half of ours, at facets with two thirds.\n";
   }
   text << "powder = O.materials.append(FrictMat(young=" << CardNumber(powder.youngs_modulus)
        << ", poisson=" << CardNumber(powder.poisson_ratio)

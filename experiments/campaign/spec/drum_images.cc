@@ -51,6 +51,14 @@ void MakeBinary(double share, imaging::GrayImage& image) {
   for (std::uint8_t& level : image.pixels) level = level < 255 * share ? 0 : 255;
 }
 
+// Photographs of a camera that shows any powder are averages made binary.
+void RequireThreshold(const ExperimentSpec& e, const std::string& prefix,
+                      base::Problems& problems) {
+  problems.Require(e.images.threshold || !ShowsAny(e), prefix + "threshold",
+                   "is missing: the camera shows powder where any picture has it, so say below "
+                   "which share of the light the photographs' average is powder, such as 0.9");
+}
+
 void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images) {
   if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
 }
@@ -91,6 +99,12 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
     problems.Require(!e.turning, prefix + "turning", "is of a drum's photographs: remove it");
     problems.Require(!e.circle_diameter, prefix + "circle_diameter",
                      "is of a drum's photographs: remove it");
+    problems.Require(IsDrum(e.rig) || !e.images.frame || !e.images.frame->disc_diameter,
+                     prefix + "frame.disc_diameter", "is of a drum's picture: remove it");
+    const bool is_binary = IsDrum(e.rig) && ShowsAny(e);
+    problems.Require(!e.images.threshold || e.images.map.empty() || is_binary, prefix + "threshold",
+                     "is of photographs: in a map grey tells how often powder is there");
+    if (is_binary && e.images.HasImages()) RequireThreshold(e, prefix, problems);
     return;
   }
   problems.Require(IsAroundDrum(e), prefix + "circle_diameter", e.circle_diameter.value_or(0),
@@ -103,22 +117,26 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
   problems.Require(images.runs.empty(), prefix + "runs",
                    "are of heaps: give a drum's photographs as the folder of one series, "
                    "\"photos\", or as their average, \"map\"");
-  const bool plain = images.scale.empty() && images.tilt == 0 && !images.pixel_size &&
-                     images.powder != imaging::PowderLook::kBright &&
+  const bool plain = images.scale.empty() && images.pattern.empty() && images.tilt == 0 &&
+                     !images.pixel_size && images.powder != imaging::PowderLook::kBright &&
                      (!images.threshold || ShowsAny(e));
   problems.Require(plain, place,
-                   "has a scale, tilt, pixel_size, threshold or bright powder, which are of heaps: "
-                   "a drum is read by its circle, lit from behind");
-  problems.Require(images.threshold || !ShowsAny(e), prefix + "threshold",
-                   "is missing: the camera shows powder where any picture has it, so say below "
-                   "which share of the light the photographs' average is powder, such as 0.9");
+                   "has a scale, pattern, tilt, pixel_size, threshold or bright powder, which are "
+                   "of heaps: a drum is read by its circle, lit from behind, from all pictures of "
+                   "the folder");
+  RequireThreshold(e, prefix, problems);
 }
 
 imaging::Experiment MeasureImages(const ExperimentSpec& e) {
-  if (!ShowsDrum(e)) return imaging::MeasureExperiment(WithGround(e));
+  const bool is_binary = IsDrum(e.rig) && ShowsAny(e);
+  if (!ShowsDrum(e) && !is_binary) return imaging::MeasureExperiment(WithGround(e));
   imaging::Experiment experiment;
-  experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
-  if (ShowsAny(e)) MakeBinary(e.images.threshold.value(), experiment.aehp.image);
+  if (ShowsDrum(e)) {
+    experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
+  } else {
+    experiment = imaging::MeasureExperiment(e.images);
+  }
+  if (is_binary) MakeBinary(e.images.threshold.value(), experiment.aehp.image);
   experiment.metrics = imaging::DescribeProfile(experiment.Images(), e.images.metrics);
   return experiment;
 }

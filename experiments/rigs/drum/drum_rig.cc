@@ -83,6 +83,10 @@ class DrumRig : public RememberingRig<DrumMemory> {
     problems.Require(froude < 1, "rig.speed", drum.speed,
                      "in rad/s, so fast that the powder turns with the drum: ω²R/g is " +
                          base::ShortNumber(froude) + ", must be below 1");
+    const double framed = c.frame ? c.frame->plate_diameter : drum.diameter;
+    problems.Require(std::abs(framed - drum.diameter) <= 1e-6 * drum.diameter,
+                     "frame.plate_diameter", framed,
+                     "is another than the drum's diameter, rig.diameter");
     if (c.rig.camera) {
       const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
       problems.Require(c.rig.camera->LastTime() <= measured, "rig.camera",

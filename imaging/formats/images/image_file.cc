@@ -23,11 +23,11 @@ RawImage Decode(std::string_view bytes, const std::string& name, double white) {
                           "; give a PNG, JPEG, TIFF, BMP or PGM file");
 }
 
-// Cameras store 10, 12 or 14 bits in 16; the largest sample tells which.
+// Cameras store 10, 12 or 14 bits in 16, and programs 8; the largest sample tells which.
 double WhiteOf(std::uint16_t largest) {
-  for (const int bits : {10, 12, 14}) {
+  for (const int bits : {8, 10, 12, 14}) {
     const int white = (1 << bits) - 1;
-    if (largest > 255 && largest <= white) return white;
+    if (largest <= white) return white;
   }
   return 65535;
 }

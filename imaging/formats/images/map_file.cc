@@ -61,11 +61,13 @@ Frame FindFrame(const GrayImage& image, double plate_diameter, const std::string
           .plate_diameter = plate_diameter};
 }
 
-// The plate and what is below it are not powder.
-void BlankBelow(Profile& profile) {
+// The plate and what is below it are not powder, and of a drum only its disc counts.
+void BlankWhatDoesNotCount(Profile& profile) {
   for (int y = 0; y < profile.image.height; ++y) {
-    if (y + 0.5 < profile.frame.baseline) continue;
-    for (int x = 0; x < profile.image.width; ++x) profile.image.at(x, y) = 255;
+    const bool is_below = y + 0.5 >= profile.frame.baseline;
+    for (int x = 0; x < profile.image.width; ++x) {
+      if (is_below || !profile.frame.Knows(x, y)) profile.image.at(x, y) = 255;
+    }
   }
 }
 
@@ -84,7 +86,7 @@ Profile ReadMap(const std::filesystem::path& path, double plate_diameter,
   Profile profile{.image = ReadGrayImage(path), .frame = {}};
   profile.frame = frame ? *frame : FindFrame(profile.image, plate_diameter, path.string());
   RequireFit(profile, path.string());
-  BlankBelow(profile);
+  BlankWhatDoesNotCount(profile);
   return profile;
 }
 

@@ -184,6 +184,31 @@ TEST_F(DrumImages, PowderInAnyPictureIsWhatIsDarkerThanTheThreshold) {
   EXPECT_NEAR(mean, (any + all) / 2, 0.1 * (any - all));
 }
 
+// A map with its frame, as films have them, was compared in grey all the same.
+TEST_F(DrumImages, AMapWithItsFrameIsMadeBinaryToo) {
+  ExperimentSpec e = ExperimentsOf(Read())[0];
+  e.images.map = hazy_;
+  e.images.frame = imaging::Frame{.width = kSide,
+                                  .height = kSide,
+                                  .pixel_size = 0.042 / kRadius,
+                                  .center_x = kSide / 2.0,
+                                  .baseline = kSide / 2.0 + kRadius,
+                                  .plate_diameter = 0.084,
+                                  .disc_diameter = 0.08};
+  e.rig->camera = {.frames = 20, .interval = 0.01, .shows = rigs::Shown::kAny};
+  base::Problems problems;
+  ValidateDrumImages(e, "", problems);
+  EXPECT_THAT(ErrorIn([&] { problems.ThrowIfAny(); }), HasSubstr("threshold: is missing"));
+  e.images.threshold = 0.9;
+  for (const std::uint8_t level : MeasureImages(e).aehp.image.pixels) {
+    EXPECT_TRUE(level == 0 || level == 255);
+  }
+  e.rig->camera->shows = rigs::Shown::kMean;
+  ValidateDrumImages(e, "", problems);
+  EXPECT_THAT(ErrorIn([&] { problems.ThrowIfAny(); }),
+              HasSubstr("threshold: is of photographs: in a map grey tells"));
+}
+
 TEST_F(DrumImages, ErrorsSayWhatToDo) {
   EXPECT_THAT(ErrorOf(R"(, "turning": "clockwise")"), HasSubstr("turns the other way"));
   EXPECT_EQ(ErrorOf(R"(, "turning": "counter-clockwise")"), "");
@@ -193,6 +218,7 @@ TEST_F(DrumImages, ErrorsSayWhatToDo) {
           "experiments[1].circle_diameter: is 0.08 (\"80 mm\"), must be from the rig's diameter"));
   EXPECT_EQ(ErrorOf(R"(, "circle_diameter": "87 mm")"), "");
   EXPECT_THAT(ErrorOf(R"(, "pixel_size": "0.5 mm")"), HasSubstr("which are of heaps"));
+  EXPECT_THAT(ErrorOf(R"(, "pattern": "{run}.png")"), HasSubstr("from all pictures of the folder"));
   EXPECT_THAT(ErrorOf(R"(, "mass": 0)"), HasSubstr("experiments[1].mass: is 0, must be positive"));
   EXPECT_EQ(ErrorOf(R"(, "cohesive_index": {"values": ["1 mm", "1.2 mm"]})"), "");
 }
