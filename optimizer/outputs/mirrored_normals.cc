@@ -1,10 +1,28 @@
 #include "optimizer/outputs/mirrored_normals.h"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace talus::optimizer {
+
+namespace {
+
+// Of d normals: their squares' mean is d and their variance 2d. Of one the smaller would be
+// negative.
+std::vector<double> LengthsOf(double d) {
+  if (d < 2) return {0, 0, std::sqrt(3.0)};
+  return {std::sqrt(d - std::sqrt(2 * d)), std::sqrt(d + std::sqrt(2 * d))};
+}
+
+// One direction a row.
+Eigen::MatrixXd RandomBasis(Eigen::Index size, base::Random& random) {
+  const Eigen::MatrixXd normals =
+      Eigen::MatrixXd::NullaryExpr(size, size, [&] { return random.Normal(); });
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(normals).householderQ();
+}
+
+}  // namespace
 
 Eigen::MatrixXd MirroredNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                 base::Random random) {
@@ -19,12 +37,19 @@ Eigen::MatrixXd MirroredNormals(Eigen::Index num_draws, Eigen::Index num_columns
 
 Eigen::MatrixXd OrthogonalNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                   base::Random random) {
-  const Eigen::Index half = std::max(num_draws / 2, num_columns);
-  Eigen::MatrixXd normals = MirroredNormals(2 * half, num_columns, random);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(normals.topRows(half));
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(half, num_columns);
-  normals.topRows(half) = std::sqrt(static_cast<double>(half)) * q;
-  normals.bottomRows(half) = -normals.topRows(half);
+  const std::vector<double> lengths = LengthsOf(static_cast<double>(num_columns));
+  const Eigen::Index of_basis = num_columns * static_cast<Eigen::Index>(lengths.size());
+  const Eigen::Index num_bases = (num_draws / 2 + of_basis - 1) / of_basis;
+  Eigen::MatrixXd normals(2 * num_bases * of_basis, num_columns);
+  Eigen::Index row = 0;
+  for (Eigen::Index basis = 0; basis < num_bases; ++basis) {
+    const Eigen::MatrixXd directions = RandomBasis(num_columns, random);
+    for (const double length : lengths) {
+      normals.middleRows(row, num_columns) = length * directions;
+      row += num_columns;
+    }
+  }
+  normals.bottomRows(row) = -normals.topRows(row);
   return normals;
 }
 

@@ -12,8 +12,10 @@ namespace talus::optimizer {
 Eigen::MatrixXd MirroredNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                 base::Random random);
 
-// The same with the first half along orthogonal directions, so that all second moments are exact,
-// too: of `num_draws`, an even number, or twice as many as columns where these are more.
+// Along orthogonal directions, each of two lengths: second moments are exact, too, and the squared
+// length has the mean and the variance of d normals, d and 2d. Of one length a distance
+// that is least at zero would hardly scatter. `num_draws` or more, as many as 4 d go into;
+// mirrored.
 Eigen::MatrixXd OrthogonalNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                   base::Random random);
 

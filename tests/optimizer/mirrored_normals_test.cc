@@ -2,17 +2,30 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace talus::optimizer {
 namespace mirrored_normals_test {
 
 TEST(OrthogonalNormals, HaveTheMomentsOfNormals) {
-  for (const Eigen::Index columns : {1, 3, 8, 12}) {
+  for (const Eigen::Index columns : {1, 2, 3, 8, 12}) {
     const Eigen::MatrixXd z = OrthogonalNormals(16, columns, base::Random(1, 2));
-    EXPECT_EQ(z.rows(), columns == 12 ? 24 : 16);
+    EXPECT_GE(z.rows(), 16);
     EXPECT_LT(z.colwise().mean().cwiseAbs().maxCoeff(), 1e-14);
     const Eigen::MatrixXd second = z.transpose() * z / static_cast<double>(z.rows());
     EXPECT_LT((second - Eigen::MatrixXd::Identity(columns, columns)).cwiseAbs().maxCoeff(), 1e-13);
+    const auto d = static_cast<double>(columns);
+    EXPECT_NEAR(z.rowwise().squaredNorm().array().square().mean(), d * (d + 2), 1e-11);
   }
+  EXPECT_EQ(OrthogonalNormals(16, 8, base::Random(1, 2)).rows(), 32);
+}
+
+// The distance from a target that is the mean: its sd is that of a χ distribution of 8 degrees, and
+// was zero while all draws were of one length.
+TEST(OrthogonalNormals, ADistanceScattersByThem) {
+  const Eigen::VectorXd distances = OrthogonalNormals(16, 8, base::Random(1, 2)).rowwise().norm();
+  const double sd = std::sqrt((distances.array() - distances.mean()).square().mean());
+  EXPECT_NEAR(sd, 0.696, 0.05);  // √(8 - 2 (Γ(9/2)/Γ(4))²); two lengths are no distribution
 }
 
 TEST(MirroredNormals, TheFirstDoNotDependOnHowManyThereAre) {

@@ -68,8 +68,8 @@ std::vector<surrogate::LogNormal> NoisePriors(const Prediction& prediction,
   for (int l = 0; l < levels.size(); ++l) {
     const double ratio = levels.NoiseAtTarget(base) / levels.NoiseAtTarget(l);
     surrogate::LogNormal prior{.median = usual.median * ratio, .log_sd = usual.log_sd};
-    if (std::isfinite(number.run_sd)) {
-      prior = {.median = std::clamp(number.run_sd / spread * ratio, kLeast, 1.0),
+    if (std::isfinite(number.repeats_sd)) {
+      prior = {.median = std::clamp(number.repeats_sd / spread * ratio, kLeast, 1.0),
                .log_sd = l == base ? kRepeated : kByGrains};
     }
     priors.push_back(prior);

@@ -58,6 +58,7 @@ struct PredictedNumber {
   double high = kUnknown;
   double parameters_sd = kUnknown;     // of what the sets give on average
   double run_sd = kUnknown;            // of a single run; null where no set was run twice
+  double repeats_sd = kUnknown;        // of runs of one draw; no key: run_sd may be the surrogate's
   double parameters_share = kUnknown;  // of the variance of a single run
   std::vector<double> by_draw{};       // mean of each draw; null where it is not defined
   std::vector<double> by_run{};        // as in Prediction::runs; null where it is not defined

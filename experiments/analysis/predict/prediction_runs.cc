@@ -56,6 +56,7 @@ MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
 PredictedNumber Describe(std::string name, const DrawValues& values, const Spread& spread) {
   PredictedNumber number{.name = std::move(name)};
   Take(spread, number);
+  number.repeats_sd = number.run_sd;
   for (const std::vector<double>& runs : values.runs) {
     number.num_defined += static_cast<int>(runs.size());
     number.by_draw.push_back(base::SampleOf(runs).mean);

@@ -240,7 +240,7 @@ class Study {
 
   void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) {
     const optimizer::ExperimentModel& model = foreteller_.posterior().models()[e];
-    const Eigen::VectorXd single = model.Predict(setting_.point.transpose()).single;
+    const Eigen::VectorXd single = model.NoiseAt(setting_.scale_factor);  // of a simulation
     const auto& scalars = view_.references[static_cast<std::size_t>(view_.Answered()[e])].scalars();
     const Eigen::Index num_modes = single.size() - static_cast<Eigen::Index>(scalars.size());
     if (num_modes > 0) {

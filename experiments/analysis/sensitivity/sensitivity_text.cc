@@ -38,8 +38,8 @@ std::string OutputsText(const FixedMove& move, bool many_experiments) {
     const std::string name =
         (many_experiments ? output.experiment + " " : "") + output.output + " ";
     if (!std::isfinite(output.shift)) return name + "not known, as simulations have no value";
-    return name + PlainNumber(output.shift, 2) + " (by chance up to " +
-           PlainNumber(output.noise, 2) + ")";
+    return name + PlainNumber(output.shift, 2) + " (± " + PlainNumber(output.noise, 2) +
+           " by chance)";
   });
 }
 

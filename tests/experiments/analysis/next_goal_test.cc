@@ -52,8 +52,8 @@ TEST_F(NextGoal, ForAGoalWhatNarrowsItComesFirst) {
 
 TEST_F(NextGoal, RunsOfAnEarlierPredictionServeAGoalAndAreNotMadeAgain) {
   const JointView view = Run();
-  Predict(view, {.file = Taps(), .num_draws = 8, .num_seeds = 2, .scale_factors = {2}},
-          Parts(view));
+  const Prediction before = Predict(
+      view, {.file = Taps(), .num_draws = 8, .num_seeds = 2, .scale_factors = {2}}, Parts(view));
   const fs::path trials = folder_ / "predict/taps/trials";
   const auto time = fs::last_write_time(trials / "0001_1/profile.png");
   const Goal goal = SimulateGoal(view, {.file = Taps()}, Parts(view));
@@ -61,6 +61,10 @@ TEST_F(NextGoal, RunsOfAnEarlierPredictionServeAGoalAndAreNotMadeAgain) {
   EXPECT_EQ(goal.num_runs, 16);
   EXPECT_EQ(goal.scale_factor, 2);
   EXPECT_EQ(fs::last_write_time(trials / "0001_1/profile.png"), time);
+  // It was fitted anew with the surrogate's scatter for that of the runs.
+  const auto number = std::ranges::find(before.numbers, goal.number, &PredictedNumber::name);
+  ASSERT_NE(number, before.numbers.end());
+  EXPECT_EQ(goal.surrogate.left_out_error(), number->surrogate->left_out_error);
 }
 
 TEST_F(NextGoal, AGoalThatTheTestDoesNotMeasureNamesThoseThereAreAndCostsNothing) {

@@ -198,6 +198,7 @@ class MadeUpProcess {
     for (int run = 0; run < 8; ++run) add(run, 1.5);
     spread_.emplace(values);
     Take(*spread_, p.numbers[0]);
+    p.numbers[0].repeats_sd = spread_->run_sd();
     return p;
   }
   std::optional<Spread>& spread() { return spread_; }
