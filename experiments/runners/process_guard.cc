@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -21,9 +22,10 @@
 namespace talus::runners {
 namespace {
 
-std::string EnvironmentOf(const std::string& pid) {
+// Nothing of another user's process, or of one that is gone.
+std::optional<std::string> EnvironmentOf(const std::string& pid) {
   const int file = ::open(("/proc/" + pid + "/environ").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return {};  // another user's, or gone
+  if (file < 0) return std::nullopt;
   std::string text;
   char bytes[8192];
   for (ssize_t count = 0; (count = ::read(file, bytes, sizeof bytes)) > 0;) {
@@ -33,33 +35,49 @@ std::string EnvironmentOf(const std::string& pid) {
   return text;
 }
 
-bool HasMark(const std::string& pid, const std::string& mark) {
-  return EnvironmentOf(pid).find(mark) != std::string::npos;
+bool Holds(const std::optional<std::string>& environment, const std::string& mark) {
+  return environment && environment->find(mark) != std::string::npos;
+}
+
+// While it becomes another program (execve) its environment is empty for a moment. Neither the
+// kernel's threads nor what has ended have a program; a few programs have no environment for good.
+bool HasProgram(const std::string& pid) {
+  char first = 0;
+  return ::readlink(("/proc/" + pid + "/exe").c_str(), &first, 1) > 0;
 }
 
 // The number may have gone to another process since we looked; a pidfd cannot.
-bool KillIfMarked(const std::string& pid, const std::string& mark) {
-  if (!HasMark(pid, mark)) return false;
+bool Kill(const std::string& pid, const std::string& mark) {
   const int process = static_cast<int>(::syscall(SYS_pidfd_open, std::stoi(pid), 0));
   if (process < 0) return false;
-  const bool killed =
-      HasMark(pid, mark) && ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0) == 0;
+  const bool killed = Holds(EnvironmentOf(pid), mark) &&
+                      ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0) == 0;
   ::close(process);
   return killed;
 }
 
-int KillRound(const std::string& mark) {
-  DIR* const processes = ::opendir("/proc");
-  if (processes == nullptr) return 0;
-  const std::string self = std::to_string(::getpid());
+struct Round {
   int num_killed = 0;
+  int num_unclear = 0;
+};
+
+Round KillRound(const std::string& mark) {
+  DIR* const processes = ::opendir("/proc");
+  if (processes == nullptr) return {};
+  const std::string self = std::to_string(::getpid());
+  Round round;
   while (const dirent* entry = ::readdir(processes)) {
     const std::string pid = entry->d_name;
     if (pid == self || pid.find_first_not_of("0123456789") != std::string::npos) continue;
-    num_killed += KillIfMarked(pid, mark) ? 1 : 0;
+    const std::optional<std::string> environment = EnvironmentOf(pid);
+    if (Holds(environment, mark)) {
+      round.num_killed += Kill(pid, mark) ? 1 : 0;
+    } else if (environment && environment->empty() && HasProgram(pid)) {
+      ++round.num_unclear;
+    }
   }
   ::closedir(processes);
-  return num_killed;
+  return round;
 }
 
 // The guard's side. Of its own session, so that what a terminal does to ours does not reach it. It
@@ -121,7 +139,12 @@ std::string MarkEntry(const std::string& mark) {
 
 void KillMarked(const std::string& mark) {
   constexpr auto kPause = std::chrono::milliseconds(2);
-  for (int round = 0; round < 5000 && KillRound(mark) > 0; ++round) {
+  constexpr int kMostUnclear = 50;  // rounds in turn
+  int unclear = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Round round = KillRound(mark);
+    unclear = round.num_killed > 0 ? 0 : unclear + 1;
+    if (round.num_killed == 0 && (round.num_unclear == 0 || unclear > kMostUnclear)) return;
     std::this_thread::sleep_for(kPause);
   }
 }

@@ -5,11 +5,9 @@
 #include <vector>
 
 namespace talus::optimizer {
-
 namespace {
 
-// Of d normals: their squares' mean is d and their variance 2d. Of one the smaller would be
-// negative.
+// Their squares have the mean d and the variance 2d; the smaller of one would be negative.
 std::vector<double> LengthsOf(double d) {
   if (d < 2) return {0, 0, std::sqrt(3.0)};
   return {std::sqrt(d - std::sqrt(2 * d)), std::sqrt(d + std::sqrt(2 * d))};
@@ -37,6 +35,7 @@ Eigen::MatrixXd MirroredNormals(Eigen::Index num_draws, Eigen::Index num_columns
 
 Eigen::MatrixXd OrthogonalNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                   base::Random random) {
+  if (num_columns == 0) return Eigen::MatrixXd(num_draws, 0);  // images that are all alike
   const std::vector<double> lengths = LengthsOf(static_cast<double>(num_columns));
   const Eigen::Index of_basis = num_columns * static_cast<Eigen::Index>(lengths.size());
   const Eigen::Index num_bases = (num_draws / 2 + of_basis - 1) / of_basis;

@@ -18,6 +18,7 @@ TEST(OrthogonalNormals, HaveTheMomentsOfNormals) {
     EXPECT_NEAR(z.rowwise().squaredNorm().array().square().mean(), d * (d + 2), 1e-11);
   }
   EXPECT_EQ(OrthogonalNormals(16, 8, base::Random(1, 2)).rows(), 32);
+  EXPECT_EQ(OrthogonalNormals(16, 0, base::Random(1, 2)).rows(), 16);
 }
 
 // The distance from a target that is the mean: its sd is that of a χ distribution of 8 degrees, and

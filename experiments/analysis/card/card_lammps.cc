@@ -27,7 +27,7 @@ struct PairInput {
   engine::PairConstants pair;
 };
 
-// Of the LAMMPS that a line is for.
+// The LAMMPS that a line is for.
 enum class Version { kOf2022, kLater };
 
 // What is given as the damping of the normal model, and the model that takes it.
