@@ -204,8 +204,10 @@ TEST(Experiment, FaultsCanBeDrawn) {
     EXPECT_EQ(error.photos().size(), 2u);
   }
   options.allow_missing_views = true;
-  const std::vector<UnusablePhoto> left_out = MeasureExperiment(options).left_out;
+  const Experiment measured = MeasureExperiment(options);
+  const std::vector<UnusablePhoto>& left_out = measured.left_out;
   ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_THAT(measured.reading, testing::StartsWith("1 heap (1), 2 photographs"));
   EXPECT_FALSE(left_out[0].is_drawable);
   EXPECT_TRUE(left_out[1].is_drawable);
   EXPECT_THROW(FaultOf(left_out[0], options), base::ConfigError);

@@ -84,6 +84,35 @@ TEST(Map, WhiteAndBlackMapsAreErrorsThatNameTheFile) {
   }
 }
 
+// Each was read and had no effect.
+TEST(Map, KeysOfPhotographsAreRefusedAndRunsHaveNames) {
+  const auto error_of = [](const ExperimentOptions& options) {
+    base::Problems problems;
+    options.Validate(problems);
+    try {
+      problems.ThrowIfAny();
+    } catch (const base::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ExperimentOptions map;
+  map.map = "map.png";
+  map.plate_diameter = 0.01;
+  EXPECT_EQ(error_of(map), "");
+  map.pattern = "{run}.png";
+  map.powder = PowderLook::kDark;
+  map.allow_missing_views = true;
+  for (const char* key : {"pattern: is of the photographs", "powder: is of photographs",
+                          "allow_missing_views: is of photographs"}) {
+    EXPECT_THAT(error_of(map), testing::HasSubstr(key));
+  }
+  ExperimentOptions runs;
+  runs.plate_diameter = 0.01;
+  runs.runs = {{.name = "1", .photos = {"a.png"}}, {.name = "1", .photos = {"b.png"}}};
+  EXPECT_THAT(error_of(runs), testing::HasSubstr("run \"1\" stands there twice"));
+}
+
 // A published measurement that is not part of the project: TALUS_REAL_DATA names its folder. Its
 // base is 85 px wide, and the wet sand overhangs, so that it has no angle of repose.
 TEST(Map, WetSand) {

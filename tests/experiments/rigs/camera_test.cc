@@ -44,6 +44,17 @@ TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
   EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
 }
 
+// Its index was of a drum of the frame's width.
+TEST(Camera, AFrameOfAnotherDrumIsRefused) {
+  Case c = Filmed();
+  base::Problems problems;
+  ValidateCase(c, problems);
+  EXPECT_TRUE(problems.empty());
+  c.frame->plate_diameter *= 0.5;
+  ValidateCase(c, problems);
+  EXPECT_THAT(ErrorIn([&] { problems.ThrowIfAny(); }), HasSubstr("frame.plate_diameter: is 0.0"));
+}
+
 // What the camera has seen where the run is interrupted after the second frame and goes on.
 CameraMemory SeenWithABreak(const Case& c) {
   auto first = MakeRig(c);
