@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/normal.h"
 #include "base/text/number_text.h"
 
 namespace talus::engine {
@@ -14,8 +15,6 @@ namespace {
 constexpr double kSphere = std::numbers::pi / 6;  // V / d³
 constexpr double kCellRatio = 0.005;              // ln of a cell's width: its error is ~ 1e-5
 constexpr double kTail = 3;                       // standard deviations kept without a cut-off
-
-double NormalShare(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 // A share below each diameter (not normalised), and the diameters at which its slope may jump.
 struct Curve {
@@ -44,13 +43,13 @@ Curve CurveOf(const SizeDistribution& s) {
       return {.breaks = {*s.mean - kTail * *s.standard_deviation,
                          *s.mean + kTail * *s.standard_deviation},
               .share_below = [m = *s.mean, sd = *s.standard_deviation](double d) {
-                return NormalShare((d - m) / sd);
+                return base::NormalProbability((d - m) / sd);
               }};
     case SizeKind::kLogNormal:
       return {.breaks = {*s.median * std::exp(-kTail * *s.sigma),
                          *s.median * std::exp(kTail * *s.sigma)},
               .share_below = [m = *s.median, sigma = *s.sigma](double d) {
-                return NormalShare(std::log(d / m) / sigma);
+                return base::NormalProbability(std::log(d / m) / sigma);
               }};
     case SizeKind::kClasses: {
       std::vector<double> below{0};

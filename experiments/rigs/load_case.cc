@@ -186,8 +186,7 @@ CaseSize EstimateCase(const Case& c) {
   size.simulated_time = pouring + SimulatedTime(c, test_time);
   // Half of the grains are there while they are poured. Those that leave the plate do so late in
   // the test: they are there for most of it, and hardly when the heap comes to rest.
-  const ExpectedHeap heap =
-      c.rig.kind == RigKind::kLiftedTube ? ExpectHeap(c) : ExpectedHeap{.share = 1};
+  const ExpectedHeap heap = c.rig.kind == RigKind::kLiftedTube ? ExpectHeap(c) : ExpectedHeap{};
   const double lifting = test_time - heap.rest_time;
   const double time = size.simulated_time - pouring / 2 -
                       (1 - heap.share) * (0.15 * lifting + 0.9 * heap.rest_time);

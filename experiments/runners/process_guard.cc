@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/files/descriptor.h"
 #include "base/files/file.h"
 
 namespace talus::runners {
@@ -24,14 +25,13 @@ namespace {
 
 // Nothing of another user's process, or of one that is gone.
 std::optional<std::string> EnvironmentOf(const std::string& pid) {
-  const int file = ::open(("/proc/" + pid + "/environ").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return std::nullopt;
+  const base::Descriptor file(::open(("/proc/" + pid + "/environ").c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) return std::nullopt;
   std::string text;
   char bytes[8192];
-  for (ssize_t count = 0; (count = ::read(file, bytes, sizeof bytes)) > 0;) {
+  for (ssize_t count = 0; (count = ::read(file.get(), bytes, sizeof bytes)) > 0;) {
     text.append(bytes, static_cast<std::size_t>(count));
   }
-  ::close(file);
   return text;
 }
 
@@ -48,12 +48,9 @@ bool HasProgram(const std::string& pid) {
 
 // The number may have gone to another process since we looked; a pidfd cannot.
 bool Kill(const std::string& pid, const std::string& mark) {
-  const int process = static_cast<int>(::syscall(SYS_pidfd_open, std::stoi(pid), 0));
-  if (process < 0) return false;
-  const bool killed = Holds(EnvironmentOf(pid), mark) &&
-                      ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0) == 0;
-  ::close(process);
-  return killed;
+  const base::Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, std::stoi(pid), 0)));
+  return process.get() >= 0 && Holds(EnvironmentOf(pid), mark) &&
+         ::syscall(SYS_pidfd_send_signal, process.get(), SIGKILL, nullptr, 0) == 0;
 }
 
 struct Round {

@@ -11,11 +11,11 @@ constexpr double kHalf = 127.5;
 constexpr double kFringe = 0.02;          // share of the powder beyond the bed's ends
 constexpr std::size_t kFewestPoints = 8;  // of a line
 
-// The powder of each column [px], in the disc.
 // From half-way on: a sum of grey levels would take half of the camera's noise on light for powder,
 // as a map has no level beyond white.
 bool IsPowder(std::uint8_t level) { return level < 128; }
 
+// The powder of each column [px], in the disc.
 std::vector<double> ColumnPowder(const GrayImage& image) {
   std::vector<double> powder(static_cast<std::size_t>(image.width), 0.0);
   for (int y = 0; y < image.height; ++y) {

@@ -101,9 +101,8 @@ std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings) {
       result.push_back(warning);
       result.back().num_photos = static_cast<int>(count);
     } else if (warning.value > first->value) {
-      const int count_of_all = first->num_photos;
       *first = warning;
-      first->num_photos = count_of_all;
+      first->num_photos = static_cast<int>(count);
     }
   }
   return result;

@@ -37,6 +37,10 @@ int PosteriorDesignSize(const Domain& domain) {
   return static_cast<int>(std::ceil(4 * parameters)) + 4;
 }
 
+int PosteriorDesignSize(const Domain& domain, int num_initial) {
+  return num_initial > 0 ? num_initial : PosteriorDesignSize(domain);
+}
+
 Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed) {
   Points points = domain.guesses;
   Points hypercube = LatinHypercube(size, domain.num_parameters, seed);

@@ -13,6 +13,9 @@ namespace talus::optimizer {
 // roughly only, and less by as much as its prior is narrower than uniform.
 int PosteriorDesignSize(const Domain& domain);
 
+// `num_initial` where it states one, else that size.
+int PosteriorDesignSize(const Domain& domain, int num_initial);
+
 // Sets at each finer scale factor that the search takes after it, before gain alone decides.
 inline constexpr int kFewestFinerSets = 3;
 

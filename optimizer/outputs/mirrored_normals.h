@@ -13,9 +13,9 @@ Eigen::MatrixXd MirroredNormals(Eigen::Index num_draws, Eigen::Index num_columns
                                 base::Random random);
 
 // Along orthogonal directions, each of two lengths: second moments are exact, too, and the squared
-// length has the mean and the variance of d normals, d and 2d. Of one length a distance
-// that is least at zero would hardly scatter. `num_draws` or more, as many as 4 d go into;
-// mirrored.
+// length has the mean and the variance of d normals, d and 2d. Draws of one length would hardly
+// tell how a distance scatters that is least at zero. As many as fill whole bases, `num_draws` or
+// more; mirrored.
 Eigen::MatrixXd OrthogonalNormals(Eigen::Index num_draws, Eigen::Index num_columns,
                                   base::Random random);
 

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/normal.h"
+
 namespace talus::optimizer {
 namespace {
 
 constexpr double kLeastSd = 1e-150;
 
-double NormalDensity(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
-double NormalProbability(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+using base::NormalDensity;
+using base::NormalProbability;
 
 // Φ(z) / φ(z) for z << 0, by its continued fraction; 12 terms give 1e-12 for z < -4.
 double MillsRatio(double z) {

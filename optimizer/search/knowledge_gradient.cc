@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "base/normal.h"
 #include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
@@ -19,8 +19,7 @@ constexpr double kDropWork = 1e4;  // multiplications of one expected drop of th
 // φ(z) - |z| Φ(-|z|): what a line that crosses another one at z adds to the expected maximum.
 double Crossing(double z) {
   const double t = std::abs(z);
-  return std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi) -
-         t * 0.5 * std::erfc(t / std::numbers::sqrt2);
+  return base::NormalDensity(t) - t * base::NormalProbability(-t);
 }
 
 struct Line {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/normal.h"
 #include "base/random.h"
 #include "optimizer/space/draws_density.h"
 
@@ -28,9 +29,7 @@ double Prior::Single::Score(double unit) const {
 // mean is (φ(a) - φ(b)) / Z and its variance 1 + (a φ(a) - b φ(b)) / Z - mean².
 Prior::Single::Moments Prior::Single::ScoreWithin() const {
   const double a = Score(0), b = Score(1);
-  const auto density = [](double z) {
-    return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
-  };
+  const auto density = base::NormalDensity;
   const double inside =
       0.5 * (std::erfc(-b / std::numbers::sqrt2) - std::erfc(-a / std::numbers::sqrt2));
   const double mean = (density(a) - density(b)) / inside;

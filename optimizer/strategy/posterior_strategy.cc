@@ -54,7 +54,7 @@ PosteriorStrategy::PosteriorStrategy(const PosteriorStrategyOptions& options, co
       domain_(domain),
       levels_(options.scale_factors, options.target),
       targets_(std::move(targets)) {
-  const int size = options_.num_initial > 0 ? options_.num_initial : PosteriorDesignSize(domain_);
+  const int size = PosteriorDesignSize(domain_, options_.num_initial);
   const Points points = PosteriorDesign(domain_, size, options_.seed);
   design_.resize(static_cast<Eigen::Index>(points.size()), domain_.num_parameters);
   for (Eigen::Index i = 0; i < design_.rows(); ++i) {

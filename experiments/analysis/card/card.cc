@@ -215,6 +215,13 @@ TypicalContact TypicalContactOf(const Card& card) {
   return contact;
 }
 
+// C_r = 2 η_r √(I* k_r), where two equal grains have I* = 0.7 m R².
+double RollingDissipation(const TypicalContact& typical, double stiffness, double damping) {
+  const double radius = 2 * typical.r_star;
+  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;
+  return 2 * damping * std::sqrt(inertia * stiffness) / typical.r_star;
+}
+
 std::string CardText(const Card& card, CardFormat format) {
   if (card.deck) return DeckCardText(card, format);
   switch (format) {

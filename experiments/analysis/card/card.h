@@ -118,6 +118,9 @@ struct TypicalContact {
 };
 TypicalContact TypicalContactOf(const Card& card);
 
+// C_r/R*² there of two equal grains [kg/s] (R3), by `stiffness`, k_r/R*² [N/m], and η_r.
+double RollingDissipation(const TypicalContact& typical, double stiffness, double damping);
+
 std::string CardText(const Card& card, CardFormat format);
 
 }  // namespace talus::analysis

@@ -65,13 +65,9 @@ std::string RollingModel(const Card& card, const PairInput& input) {
   const TypicalContact typical = TypicalContactOf(card);
   const double friction = input.pair.rolling_friction;
   const double k_roll = 2.25 * typical.normal_stiffness * friction * friction;
-  // C_r = 2 η_r √(I* k_r) with k_r = k_roll R*² and, of two equal grains, I* = 0.7 m R².
-  const double radius = 2 * typical.r_star;
-  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;
   const double damping = engine::HarmonicMean(input.a.rolling_damping, input.b.rolling_damping);
-  const double c_roll = 2 * damping * std::sqrt(inertia * k_roll) / typical.r_star;
-  return "rolling sds " + CardNumber(k_roll) + " " + CardNumber(c_roll) + " " +
-         CardNumber(friction);
+  return "rolling sds " + CardNumber(k_roll) + " " +
+         CardNumber(RollingDissipation(typical, k_roll, damping)) + " " + CardNumber(friction);
 }
 
 std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b,
@@ -189,8 +185,7 @@ std::string LammpsRemarks(const Card& card) {
   } else if (card.models.adhesion == engine::Adhesion::kJkr) {
     text +=
         "# LAMMPS pulls beyond touch, up to 1.5 pi gamma* R*, and its dashpot goes with the radius "
-        "of "
-        "the JKR contact:\n# slow collisions rebound where they stick in talus.\n";
+        "of the JKR contact:\n# slow collisions rebound where they stick in talus.\n";
     if (card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
       text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
     }

@@ -74,8 +74,7 @@ std::string LiggghtsRemarks(const Card& card) {
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text +=
         "# NOT INCLUDED: the adhesion. LIGGGHTS-PUBLIC has SJKR and liquid bridges, whose forces "
-        "are others: "
-        "this card\n# without it is not the calibrated powder.\n";
+        "are others: this card\n# without it is not the calibrated powder.\n";
   }
   if (card.models.rolling == engine::Rolling::kViscous) {
     text += RollingNotIncluded(card, "LIGGGHTS", "# ");

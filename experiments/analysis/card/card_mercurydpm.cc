@@ -12,20 +12,11 @@
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
-namespace {
-
-// C_r/R*² of two equal grains [kg/s] (R3).
-double RollingDissipation(const TypicalContact& typical) {
-  const double radius = 2 * typical.r_star;
-  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;  // I*
-  return typical.pair.rolling_damping * std::sqrt(typical.radius * inertia) / typical.r_star;
-}
-
-}  // namespace
 
 std::string MercuryDpmCard(const Card& card) {
   const engine::Material powder = ActingOn(card, 0, 0);  // these lines are of two grains
   const TypicalContact typical = TypicalContactOf(card);
+  const double stiffness = typical.pair.rolling_stiffness * typical.radius;  // k_r/R*²
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   std::ostringstream text;
   text << CardHead(card, "MercuryDPM", "// ") << WallsNotIncluded(card, "// ")
@@ -33,8 +24,7 @@ std::string MercuryDpmCard(const Card& card) {
        << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's).\n";
   if (rolls) {
     text << "// Rolling dissipation of a contact that bears ten grain weights. The rolling spring "
-            "is "
-            "the tangential one\n// and cannot be set: here "
+            "is the tangential one\n// and cannot be set: here "
          << base::ShortNumber(1.5 * typical.pair.shear_stiffness / typical.pair.rolling_stiffness,
                               2)
          << " times as stiff as that of the calibrated law.\n";
@@ -56,7 +46,8 @@ std::string MercuryDpmCard(const Card& card) {
        << ");\nspecies.setSlidingFrictionCoefficient(" << CardNumber(powder.sliding_friction)
        << ");\n";
   if (rolls) {
-    text << "species.setRollingDissipation(" << CardNumber(RollingDissipation(typical)) << ");\n"
+    text << "species.setRollingDissipation("
+         << CardNumber(RollingDissipation(typical, stiffness, powder.rolling_damping)) << ");\n"
          << "species.setRollingFrictionCoefficient(" << CardNumber(powder.rolling_friction)
          << ");\n";
   }

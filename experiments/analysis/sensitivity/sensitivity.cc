@@ -240,11 +240,11 @@ class Study {
 
   void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) {
     const optimizer::ExperimentModel& model = foreteller_.posterior().models()[e];
-    const Eigen::VectorXd single = model.NoiseAt(setting_.scale_factor);  // of a simulation
+    const Eigen::VectorXd variance = model.NoiseAt(setting_.scale_factor);
     const auto& scalars = view_.references[static_cast<std::size_t>(view_.Answered()[e])].scalars();
-    const Eigen::Index num_modes = single.size() - static_cast<Eigen::Index>(scalars.size());
+    const Eigen::Index num_modes = variance.size() - static_cast<Eigen::Index>(scalars.size());
     if (num_modes > 0) {
-      const Eigen::ArrayXd noise = single.head(num_modes).array();
+      const Eigen::ArrayXd noise = variance.head(num_modes).array();
       move.outputs.push_back(
           {.experiment = NameOf(view_, e),
            .output = "image",
@@ -256,8 +256,8 @@ class Study {
       const double known = shift.is_known[k] ? 1 : campaign::kNotKnown;
       move.outputs.push_back({.experiment = NameOf(view_, e),
                               .output = scalars[s].name,
-                              .shift = known * shift.mean[k] / std::sqrt(single[k]),
-                              .noise = known * std::sqrt(shift.variance[k] / single[k])});
+                              .shift = known * shift.mean[k] / std::sqrt(variance[k]),
+                              .noise = known * std::sqrt(shift.variance[k] / variance[k])});
     }
   }
 

@@ -166,9 +166,8 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
 std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
   const auto finer = static_cast<int>(spec.coarse_graining.Levels().size()) - 1;
   if (spec.budget.simulations == 0 || finer == 0 || spec.HasOwnProposer()) return std::nullopt;
-  const int design = spec.strategy.num_initial > 0
-                         ? spec.strategy.num_initial
-                         : optimizer::PosteriorDesignSize(SpaceOf(spec).MakeDomain());
+  const int design =
+      optimizer::PosteriorDesignSize(SpaceOf(spec).MakeDomain(), spec.strategy.num_initial);
   const int least =
       static_cast<int>(ExperimentsOf(spec).size()) * (design + optimizer::kFewestFinerSets * finer);
   if (spec.budget.simulations >= least) return std::nullopt;

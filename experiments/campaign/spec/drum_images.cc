@@ -41,9 +41,9 @@ bool IsAroundDrum(const ExperimentSpec& e) {
   return !e.circle_diameter || (*e.circle_diameter >= drum && *e.circle_diameter <= 2 * drum);
 }
 
-// Photographs are then made binary, too.
+// A drum's photographs are then made binary, too.
 bool ShowsAny(const ExperimentSpec& e) {
-  return e.rig->camera && e.rig->camera->shows == rigs::Shown::kAny;
+  return IsDrum(e.rig) && e.rig->camera && e.rig->camera->shows == rigs::Shown::kAny;
 }
 
 // Powder where the map, 0 powder in every picture and 255 in none, is darker than the share.
@@ -101,10 +101,10 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
                      "is of a drum's photographs: remove it");
     problems.Require(IsDrum(e.rig) || !e.images.frame || !e.images.frame->disc_diameter,
                      prefix + "frame.disc_diameter", "is of a drum's picture: remove it");
-    const bool is_binary = IsDrum(e.rig) && ShowsAny(e);
-    problems.Require(!e.images.threshold || e.images.map.empty() || is_binary, prefix + "threshold",
+    problems.Require(!e.images.threshold || e.images.map.empty() || ShowsAny(e),
+                     prefix + "threshold",
                      "is of photographs: in a map grey tells how often powder is there");
-    if (is_binary && e.images.HasImages()) RequireThreshold(e, prefix, problems);
+    if (e.images.HasImages()) RequireThreshold(e, prefix, problems);
     return;
   }
   problems.Require(IsAroundDrum(e), prefix + "circle_diameter", e.circle_diameter.value_or(0),
@@ -128,15 +128,14 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
 }
 
 imaging::Experiment MeasureImages(const ExperimentSpec& e) {
-  const bool is_binary = IsDrum(e.rig) && ShowsAny(e);
-  if (!ShowsDrum(e) && !is_binary) return imaging::MeasureExperiment(WithGround(e));
+  if (!ShowsDrum(e) && !ShowsAny(e)) return imaging::MeasureExperiment(WithGround(e));
   imaging::Experiment experiment;
   if (ShowsDrum(e)) {
     experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
   } else {
     experiment = imaging::MeasureExperiment(e.images);
   }
-  if (is_binary) MakeBinary(e.images.threshold.value(), experiment.aehp.image);
+  if (ShowsAny(e)) MakeBinary(e.images.threshold.value(), experiment.aehp.image);
   experiment.metrics = imaging::DescribeProfile(experiment.Images(), e.images.metrics);
   return experiment;
 }

@@ -18,16 +18,17 @@ inline ExpectedHeap ExpectHeap(const Case& c) {
   constexpr double kSlope = 0.65;
   constexpr double kSlopeOfAll = 0.4;  // with all of the powder, which runs out on a wide plate
   constexpr double kSolid = 0.58;
-  const double bulk = c.powder.mass / c.powder.material.density / kSolid;                // [m³]
-  const double rest = 8 * std::sqrt(c.rig.lifted_tube.tube_inner_diameter / c.gravity);  // [s]
+  const double bulk = c.powder.mass / c.powder.material.density / kSolid;  // [m³]
   const double radius = c.rig.lifted_tube.plate_diameter / 2;
   const double full = std::numbers::pi / 3 * radius * radius * radius * kSlope;  // [m³]
+  ExpectedHeap heap{.rest_time = 8 * std::sqrt(c.rig.lifted_tube.tube_inner_diameter / c.gravity)};
   if (bulk >= full) {
-    return {.height = kSlope * radius, .share = full / bulk, .rest_time = rest};
+    heap.height = kSlope * radius;
+    heap.share = full / bulk;
+  } else {
+    heap.height = std::cbrt(3 * bulk * kSlopeOfAll * kSlopeOfAll / std::numbers::pi);
   }
-  return {.height = std::cbrt(3 * bulk * kSlopeOfAll * kSlopeOfAll / std::numbers::pi),
-          .share = 1,
-          .rest_time = rest};
+  return heap;
 }
 
 }  // namespace talus::rigs

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "base/normal.h"
 
 namespace talus::imaging {
 namespace {
@@ -24,9 +25,6 @@ using Parameters = std::array<double, kNumParameters>;
 constexpr double kLevelNoise = 0.02;    // usual, of a pixel [-]
 constexpr double kBlurNoise = 0.02;     // relative, of the blur that the sides have [-]
 constexpr double kLeastSquared = 1e-4;  // of the shelf [px²]: a derivative divides by its root
-
-double Density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi); }
-double Distribution(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 // C of one pixel, and its derivatives.
 struct Cover {
@@ -76,9 +74,9 @@ class BlurredCorner {
       const double run = std::max(x, shelf_);
       const double across = (pixel.in - x) / blur_;
       const double below = (Height(x) - pixel.up) / blur_;
-      const double weight = Density(across) * step / blur_;
-      const double dark = weight * Distribution(below);
-      const double by_height = weight * Density(below) / blur_;
+      const double weight = base::NormalDensity(across) * step / blur_;
+      const double dark = weight * base::NormalProbability(below);
+      const double by_height = weight * base::NormalDensity(below) / blur_;
       cover.share += dark;
       cover.by[kSlopeAtSide] += by_height;
       if (x < shelf_) cover.by[kShelfSquared] += by_height * slope_at_foot / (2 * shelf_);

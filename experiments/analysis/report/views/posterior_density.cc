@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/normal.h"
+
 namespace talus::analysis {
 namespace {
 
@@ -21,8 +23,6 @@ constexpr KernelWidth kRegion{.neighbour_share = 0.01, .least = 0.71};  // its o
 constexpr int kFewestStriped = 5;
 
 constexpr double kReach = 4;  // of a kernel, in its widths
-
-double UnitNormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 // From the i-th row to each. In plain loops, since there are as many as draws, squared, and what
 // makes pages is little optimised.
@@ -71,7 +71,8 @@ Eigen::VectorXd Shares(double x, double width, int num_cells) {
     const int last = std::min(num_cells - 1, cell_of(centre + kReach * width));
     for (int cell = first; cell <= last; ++cell) {
       const double low = (static_cast<double>(cell) / num_cells - centre) / width;
-      shares[cell] += UnitNormalCdf(low + 1 / (num_cells * width)) - UnitNormalCdf(low);
+      shares[cell] +=
+          base::NormalProbability(low + 1 / (num_cells * width)) - base::NormalProbability(low);
     }
   }
   return shares / shares.sum();

@@ -161,10 +161,11 @@ function nextTable() {
   const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : c.bits === null ? "–" : "no simulation";
   // What is not known: "?" where simulations would tell, "–" where none will; the candidate's own words say why.
   const known = (c, x, text) => x !== null ? text(x) : c.needs_simulations ? "?" : "–";
+  const command = "talus next " + D.campaign.folder + D.next.asked;
   const goal = D.next.goal;
   const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
   return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
-    D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus next " + D.campaign.folder + D.next.asked + " again.") : null,
+    D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run " + command + " again.") : null,
     table("Next steps", [{title: "Candidate", text: true, wide: true},
         ...(goal ? [{title: goal.title + " of " + goal.process + " known within ±",
                      unit: "now " + formatUnit(goal.half_width, goal.unit, 2)}] : []),
@@ -177,7 +178,7 @@ function nextTable() {
         ...D.parameters.map((p, k) => known(c, c.bits, () => widthText(p, c.width[k]))), cost(c)])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.needs_simulations)
-        ? " ?: talus next " + D.campaign.folder + D.next.asked + " --simulate runs the simulations that tell." : ""))),
+        ? " ?: " + command + " --simulate runs the simulations that tell." : ""))),
     telling.length ? element("div", {class: "stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
       : null];
 }
