@@ -21,7 +21,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -71,18 +70,22 @@ constexpr bool HasItsKeys(std::string_view names) {
 }
 
 // The list alone, for a struct whose own Visit calls VisitFields and has more to say.
-#define TALUS_FIELD_LIST(...)                                     \
-  auto Fields() { return std::tie(__VA_ARGS__); }                 \
-  auto Fields() const { return std::tie(__VA_ARGS__); }           \
-  template <class Self, class Visitor>                            \
-  static void VisitFields(Self& self, Visitor&& visit) {          \
-    static_assert(::talus::base::HasItsKeys<Self>(#__VA_ARGS__)); \
-    std::string_view names = #__VA_ARGS__;                        \
-    const auto each = [&](auto&... fields) {                      \
-      (visit(::talus::base::TakeKey<Self>(names), fields), ...);  \
-    };                                                            \
-    std::apply(each, self.Fields());                              \
-  }                                                               \
+#define TALUS_FIELD_LIST(...)                                                                 \
+  template <class Each>                                                                       \
+  void WithFields(Each&& each) {                                                              \
+    each(__VA_ARGS__);                                                                        \
+  }                                                                                           \
+  template <class Each>                                                                       \
+  void WithFields(Each&& each) const {                                                        \
+    each(__VA_ARGS__);                                                                        \
+  }                                                                                           \
+  template <class Self, class Visitor>                                                        \
+  static void VisitFields(Self& self, Visitor&& visit) {                                      \
+    static_assert(::talus::base::HasItsKeys<Self>(#__VA_ARGS__));                             \
+    std::string_view names = #__VA_ARGS__;                                                    \
+    self.WithFields(                                                                          \
+        [&](auto&... fields) { (visit(::talus::base::TakeKey<Self>(names), fields), ...); }); \
+  }                                                                                           \
   static_assert(true)
 
 #define TALUS_FIELDS(...)                          \

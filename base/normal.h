@@ -6,6 +6,8 @@
 
 namespace talus::base {
 
+inline const double kLogRootTwoPi = 0.5 * std::log(2 * std::numbers::pi);  // ln √(2π)
+
 // φ(z)
 inline double NormalDensity(double z) {
   return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);

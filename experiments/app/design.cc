@@ -42,6 +42,7 @@ void Design(const DesignArguments& arguments) {
       arguments.out.empty() ? std::filesystem::path(arguments.spec).stem().concat("_design")
                             : std::filesystem::path(arguments.out);
   base::ClaimOutputFolder(folder, "design");
+  const campaign::CampaignLock lock(folder);  // its simulations are one process's at a time
   const campaign::JointView view = analysis::ViewOf(design, folder);
   const analysis::DesignTable table =
       analysis::RankDesigns(view, design.candidates,

@@ -22,6 +22,7 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/estimate.h"
+#include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/case/case_warnings.h"
@@ -168,6 +169,9 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   }
   WarnOfMinutes(spec);
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
+    std::cout << "  warning: " << *warning << '\n';
+  }
+  if (const auto warning = campaign::NoSeedWarning(spec)) {
     std::cout << "  warning: " << *warning << '\n';
   }
   const double finest = spec.coarse_graining.Finest();

@@ -36,7 +36,7 @@ double ValueOfTrials(const CampaignSpec& spec, const std::string& name) {
     for (const double corner : {0.0, 1.0}) {
       const rigs::Case rig_case = CaseAt(spec, Eigen::VectorXd::Constant(num_free, corner),
                                          static_cast<int>(e), spec.coarse_graining.Target());
-      const std::optional<double> here = ParameterOf(rig_case, name);
+      const std::optional<double> here = HeldAt(SpaceOf(spec), rig_case, name);
       if (!here) continue;
       if (value && *here != *value) {
         throw base::ConfigError(

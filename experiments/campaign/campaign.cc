@@ -13,6 +13,7 @@
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/turns.h"
 #include "experiments/campaign/record/trial_end.h"
+#include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/campaign/start.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -76,6 +77,7 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   TakeUpRunning();
   CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
+  if (const auto warning = NoSeedWarning(spec_)) console_.Line("warning: " + *warning);
   bool announced = false;
   while (true) {
     const base::Interrupt asked = interrupt.Asked();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "base/text/counted.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/mended_engine.h"
 #include "experiments/campaign/plan/turns.h"
 #include "experiments/runners/slurm_runner.h"
 
@@ -43,14 +45,22 @@ void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& ro
 // Folders first: a session that ends in between does all of it again.
 void Campaign::RunFailedAgain() {
   std::vector<journal::TrialRecord> trials = journal_.Trials();
-  if (!parts_.engine_is_new && !HaveFirstAllFailed(trials)) return;
-  std::erase_if(trials, [](const journal::TrialRecord& trial) {
-    return trial.status != journal::TrialStatus::kFailed;
+  const std::set<int> failing = FailingExperiments(trials);
+  std::erase_if(trials, [&](const journal::TrialRecord& trial) {
+    if (parts_.engine_is_new) return trial.finish_order == 0 || HasTold(trial);
+    return trial.status != journal::TrialStatus::kFailed || !failing.contains(trial.experiment);
   });
   if (trials.empty()) return;
-  console_.Line((parts_.engine_is_new ? "with the former engine " : "all ") +
-                base::Counted(static_cast<long long>(trials.size()), "trial") +
-                " failed (the last: " + trials.back().reason + "): run again");
+  const bool of_one = !parts_.engine_is_new && failing.size() == 1 && references_.size() > 1;
+  console_.Line(
+      (parts_.engine_is_new ? "with the former engine " : "all ") +
+      base::Counted(static_cast<long long>(trials.size()), "trial") +
+      (of_one ? " of \"" + record_.experiments.at(static_cast<std::size_t>(*failing.begin())).name +
+                    "\""
+              : "") +
+      (trials.back().reason.empty() ? " told nothing"
+                                    : " failed (the last: " + trials.back().reason + ")") +
+      ": run again");
   for (const journal::TrialRecord& trial : trials) {
     parts_.runner->Forget(JobOf(trial));
     std::filesystem::remove_all(folder_.trial(trial.id));

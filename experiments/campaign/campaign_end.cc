@@ -21,6 +21,7 @@ namespace talus::campaign {
 // A search that has ended stays so until something is asked of it (ReopenSearch). Its budget may
 // have room again: trials that still ran when it ended counted by an estimate.
 bool Campaign::StayEnded() {
+  if (parts_.engine_is_new) return false;  // it had told nothing by the former one
   const journal::ProgressRecord before = journal_.Progress();
   stop_json_ = before.stop_json;
   if (!stop_json_.empty()) {

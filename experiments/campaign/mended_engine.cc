@@ -9,13 +9,13 @@
 #include "experiments/trials/engines/template_folder.h"
 
 namespace talus::campaign {
-namespace {
 
-long long NumSucceeded(std::span<const journal::TrialRecord> trials) {
-  return std::ranges::count(trials, journal::TrialStatus::kOk, &journal::TrialRecord::status);
+bool HasTold(const journal::TrialRecord& trial) {
+  return trial.status == journal::TrialStatus::kOk &&
+         std::ranges::any_of(trial.metrics, [](const journal::MetricRecord& metric) {
+           return metric.undefined.empty();
+         });
 }
-
-}  // namespace
 
 bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignSpec& spec) {
   trials::CommandOptions& engine = spec.engine.command;
@@ -26,7 +26,7 @@ bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignS
   const std::string hash = trials::TemplateFolder(*engine.templates).Hash();
   if (hash == engine.templates_hash) return false;
   const std::string templates = engine.templates->string();
-  if (const long long count = NumSucceeded(trials); count > 0) {
+  if (const auto count = std::ranges::count_if(trials, HasTold); count > 0) {
     throw base::ConfigError(templates + ": the templates are not those that " +
                             base::Counted(count, "trial") +
                             " of the campaign succeeded with; put them back, or begin another "
@@ -41,7 +41,7 @@ bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignS
 
 bool AllowMendedEngine(std::span<const journal::TrialRecord> trials,
                        std::vector<std::string>& forbidden) {
-  if (NumSucceeded(trials) > 0) return false;
+  if (std::ranges::any_of(trials, HasTold)) return false;
   const auto num_mended = std::erase_if(forbidden, [](const std::string& change) {
     return change.starts_with("engine.") && !change.starts_with("engine.kind:");
   });

@@ -1,4 +1,4 @@
-// A wrong deck, or wrong keys of `engine`, may be mended as long as no trial has succeeded with
+// A wrong deck, or wrong keys of `engine`, may be mended as long as no trial has told anything with
 // them: nothing that is known comes of them.
 #pragma once
 
@@ -10,6 +10,9 @@
 #include "experiments/journal/records.h"
 
 namespace talus::campaign {
+
+// Whether it ended well and defines a number: one whose every number is undefined tells nothing.
+bool HasTold(const journal::TrialRecord& trial);
 
 // Takes the templates as they are now in place of those that the spec's hash is of. Whether they
 // have changed; throws ConfigError where they are no good, or where a trial has succeeded already.

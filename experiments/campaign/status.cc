@@ -144,9 +144,10 @@ std::string StateText(const journal::ProgressRecord& progress, bool alive,
   if (progress.state != CampaignState::kFinished || !progress.result_json.empty()) {
     return std::string(base::NameOf(progress.state));
   }
-  return HaveFirstAllFailed(trials) ? "ended without a result; mend the cause, and `talus resume "
-                                      "DIR` runs the failed trials again"
-                                    : "ended without a result";
+  return FailingExperiments(trials).empty()
+             ? "ended without a result"
+             : "ended without a result; mend the cause, and `talus resume DIR` runs the failed "
+               "trials again";
 }
 
 // What a campaign with this goal so far has used of its budget.

@@ -23,13 +23,13 @@
 #include "base/files/descriptor.h"
 #include "base/files/file.h"
 #include "experiments/rigs/case/run_files.h"
+#include "experiments/runners/exit_status.h"
 
 namespace talus::runners {
 namespace {
 
 constexpr auto kLogInterval = std::chrono::seconds(1);  // between two looks at the logs' sizes
 constexpr double kLongest = 1e9;  // of any job [s]: a clock counts nanoseconds
-constexpr int kCannotRun = 127;   // exit status of the child that could not become the command
 
 std::string HostName() {
   char name[256] = "";
@@ -134,17 +134,17 @@ struct Launch {
 [[noreturn]] void BecomeCommand(const Launch& launch) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != launch.parent) ::_exit(kCannotRun);  // it went before prctl
+  if (::getppid() != launch.parent) ::_exit(kNoCommand);  // it went before prctl
   ::signal(SIGINT, SIG_DFL);
   ::signal(SIGTERM, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (!launch.gate->Pass()) ::_exit(kCannotRun);
+  if (!launch.gate->Pass()) ::_exit(kNoCommand);
   const int null = ::open("/dev/null", O_RDONLY);
   if (null < 0 || ::dup2(null, 0) < 0 || ::dup2(launch.log, 1) < 0 || ::dup2(launch.log, 2) < 0 ||
       ::chdir(launch.folder) != 0) {
-    ::_exit(kCannotRun);
+    ::_exit(kNoCommand);
   }
   ::execvpe(launch.arguments[0], launch.arguments.data(), launch.environment.data());
   constexpr char kMessage[] = "the command cannot be run: ";
@@ -152,7 +152,7 @@ struct Launch {
   (void)!::write(2, kMessage, sizeof kMessage - 1);
   (void)!::write(2, reason, ::strlen(reason));
   (void)!::write(2, "\n", 1);
-  ::_exit(kCannotRun);
+  ::_exit(kNoCommand);
 }
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
@@ -186,10 +186,6 @@ std::vector<std::string> Environment(int threads, const std::string& mark) {
 // Signals that others send; a program that goes wrong by itself gets one of the rest.
 bool IsFromOutside(int signal) {
   return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
-}
-
-std::string SignalText(int signal) {
-  return "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }
 
 }  // namespace
@@ -367,7 +363,7 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
   } else {
     job.exit_status = WEXITSTATUS(status);
     job.reason = "exit status " + std::to_string(job.exit_status);
-    if (job.exit_status == kCannotRun) job.end = JobEnd::kNotStarted;
+    if (job.exit_status == kNoCommand) job.end = JobEnd::kNotStarted;
   }
   return job;
 }

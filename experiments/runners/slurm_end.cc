@@ -1,17 +1,19 @@
 #include "experiments/runners/slurm_end.h"
 
+#include <optional>
 #include <sstream>
 #include <utility>
+
+#include "experiments/runners/exit_status.h"
 
 namespace talus::runners {
 namespace {
 
-constexpr int kNoCommand = 127;  // a shell's status of a command that is not there
-
 std::string StatusText(const TaskEnd& end) {
   const std::string status = "exit status " + std::to_string(end.status);
   if (end.in_set_up) return "its set-up ended with " + status + " before its command began";
-  return end.status > 128 ? "was ended by signal " + std::to_string(end.status - 128) : status;
+  const std::optional<int> signal = SignalOf(end.status);
+  return signal ? SignalText(*signal) : status;
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ FinishedJob Finished(std::int64_t id, JobEnd end, std::string reason) {
 
 bool NeverBegan(const TaskEnd& end) { return end.in_set_up || end.status == kNoCommand; }
 
-bool WasKilled(const TaskEnd& end) { return end.status > 128; }
+bool WasKilled(const TaskEnd& end) { return SignalOf(end.status).has_value(); }
 
 FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
   FinishedJob finished = Finished(id, JobEnd::kExit, StatusText(end));

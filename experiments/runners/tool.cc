@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "experiments/runners/exit_status.h"
 #include "experiments/runners/process_guard.h"
 
 namespace talus::runners {
@@ -177,7 +178,7 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
     throw base::Error(std::string("no process can be started: ") + std::strerror(code));
   }
   if (code != 0) {
-    return {.status = 127,
+    return {.status = kNoCommand,
             .output = {},
             .errors = command[0] + ": " + std::strerror(code),
             .started = false};

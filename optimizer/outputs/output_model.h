@@ -110,7 +110,7 @@ double CompressionScale(const ScalarTarget& target);  // Compress = asinh(value 
 double CompressedError(const ScalarTarget& target);   // the target's standard error, compressed
 
 // A Gaussian process costs the cube of its evaluations: beyond these an answer takes minutes.
-constexpr int kMostEvaluations = 400;
+inline constexpr int kMostEvaluations = 400;
 
 // Rows of the first `count` of `data`, or of kMostEvaluations of these: one half are those that
 // tell the answer most, of the finest scale factor and then of the lowest miss, and the other half

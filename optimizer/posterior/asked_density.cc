@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "base/normal.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/outputs/mirrored_normals.h"
@@ -27,11 +27,11 @@ Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
 }
 
 // ln N(x | 0, L Lᵀ), one x a column.
-Eigen::ArrayXd LogNormal(const Eigen::MatrixXd& root, const Eigen::MatrixXd& x) {
+Eigen::ArrayXd LogGaussian(const Eigen::MatrixXd& root, const Eigen::MatrixXd& x) {
   const Eigen::MatrixXd white = root.triangularView<Eigen::Lower>().solve(x);
   return -0.5 * white.colwise().squaredNorm().transpose().array() -
          root.diagonal().array().log().sum() -
-         0.5 * std::log(2 * std::numbers::pi) * static_cast<double>(root.rows());
+         base::kLogRootTwoPi * static_cast<double>(root.rows());
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ Eigen::VectorXd AskedDensity::LogProposal(const Eigen::VectorXd& point,
   if (domain_.nuisances.empty()) return Eigen::VectorXd::Zero(1);
   const Eigen::VectorXd given = mean_ + slope_ * (point(asked_) - asked_mean_);
   const Eigen::MatrixXd n = Eigen::MatrixXd(nodes(Eigen::all, domain_.nuisances)).transpose();
-  const Eigen::ArrayXd near = LogNormal(given_root_, n.colwise() - given);
-  const Eigen::ArrayXd all = LogNormal(root_, n.colwise() - mean_);
+  const Eigen::ArrayXd near = LogGaussian(given_root_, n.colwise() - given);
+  const Eigen::ArrayXd all = LogGaussian(root_, n.colwise() - mean_);
   const Eigen::ArrayXd most = near.max(all);
   return most + (0.5 * (near - most).exp() + 0.5 * (all - most).exp()).log();
 }

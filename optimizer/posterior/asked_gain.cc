@@ -17,7 +17,7 @@ AskedGain::AskedGain(const Posterior& posterior, const Domain& domain, const Eig
     for (const Eigen::Index nuisance : domain.nuisances) {
       effect.push_back(EffectOf(model, nuisance));
     }
-    const Eigen::MatrixXd variance = model.Outputs(draws).variance;
+    const Eigen::MatrixXd& variance = variance_.emplace_back(model.Outputs(draws).variance);
     for (Eigen::Index k = 0; k < model.num_outputs(); ++k) {
       Add(effect_.size() - 1, k, 1 / (variance.col(k).array() + model.open()[k]), information_);
     }
@@ -49,8 +49,8 @@ void AskedGain::Add(std::size_t experiment, Eigen::Index output, const Eigen::Ar
 }
 
 Eigen::ArrayXd AskedGain::HalfLogDet(const Information& information) const {
-  Eigen::ArrayXd result(draws_.rows());
-  for (Eigen::Index i = 0; i < result.size(); ++i) {
+  Eigen::ArrayXd result = Eigen::ArrayXd::Zero(draws_.rows());
+  for (Eigen::Index i = 0; i < std::ssize(information); ++i) {
     const Eigen::MatrixXd lower = information[static_cast<std::size_t>(i)].llt().matrixL();
     result[i] = lower.diagonal().array().log().sum();
   }
@@ -58,20 +58,22 @@ Eigen::ArrayXd AskedGain::HalfLogDet(const Information& information) const {
 }
 
 Eigen::VectorXd AskedGain::OfAll() const {
-  Eigen::VectorXd gain = Eigen::VectorXd::Zero(draws_.rows());
-  for (const ExperimentModel& model : posterior_.models()) {
-    gain += model.weight() * model.GainOfAll(draws_);
-  }
-  if (information_.empty()) return gain;
-  const std::ptrdiff_t size = std::ssize(domain_.nuisances);
-  Information known(information_.size(), Eigen::MatrixXd::Identity(size, size));
+  Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(draws_.rows());
+  Information information = information_;  // one experiment after another becomes known
+  Eigen::ArrayXd before = HalfLogDet(information);
   for (std::size_t e = 0; e < posterior_.models().size(); ++e) {
-    const Eigen::VectorXd& open = posterior_.models()[e].open();
-    for (Eigen::Index k = 0; k < open.size(); ++k) {
-      Add(e, k, Eigen::ArrayXd::Constant(draws_.rows(), 1 / open[k]), known);
+    const ExperimentModel& model = posterior_.models()[e];
+    gain += model.weight() * model.GainOfAll(draws_).array();
+    if (information.empty()) continue;
+    for (Eigen::Index k = 0; k < model.num_outputs(); ++k) {
+      const double open = model.open()[k];
+      Add(e, k, 1 / open - 1 / (variance_[e].col(k).array() + open), information);
     }
+    const Eigen::ArrayXd after = HalfLogDet(information);
+    gain += model.weight() * (before - after);
+    before = after;
   }
-  return gain.array() + HalfLogDet(information_) - HalfLogDet(known);
+  return gain;
 }
 
 Eigen::MatrixXd AskedGain::OfOne(std::size_t experiment, const Eigen::MatrixXd& sites) const {
@@ -86,14 +88,14 @@ Eigen::MatrixXd AskedGain::OfOne(std::size_t experiment, const Eigen::MatrixXd& 
     if (after.size() <= at) after.resize(at + 1, information_);
     Add(experiment, n.output, 1 / n.after - 1 / n.before, after[at]);
   };
-  Eigen::MatrixXd gains = model.weight() * model.Gains(draws_, sites, add);
+  Eigen::MatrixXd gains = model.Gains(draws_, sites, add);
   const Eigen::ArrayXd before = HalfLogDet(information_);
   for (Eigen::Index level = 0; level < gains.cols(); ++level) {
     for (Eigen::Index site = 0; site < gains.rows(); ++site) {
       gains(site, level) += (before - HalfLogDet(after[place(site, level)])).mean();
     }
   }
-  return gains;
+  return model.weight() * gains;
 }
 
 }  // namespace talus::optimizer

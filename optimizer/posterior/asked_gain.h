@@ -8,7 +8,8 @@
 // after, B what the experiments leave open; N the covariance that not knowing the nuisances n,
 // whose prior has the standard deviations σ, gives the outputs at a fixed set of what is asked for.
 // In the directions that nuisances explain anyhow the surrogate need not be sure. Without nuisances
-// only the sum is left. An experiment of weight w counts w times, in UᵀC⁻¹U too.
+// only the sum is left. An experiment of weight w counts w times: in UᵀC⁻¹U, and by what it gains
+// itself, which is never negative.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,6 +45,7 @@ class AskedGain {
   const Domain& domain_;
   const Eigen::MatrixXd& draws_;
   std::vector<std::vector<Eigen::MatrixXd>> effect_;  // [experiment][nuisance]: U, draws × outputs
+  std::vector<Eigen::MatrixXd> variance_;             // [experiment]: V, draws × outputs
   Information information_;                           // as things are; empty without nuisances
 };
 

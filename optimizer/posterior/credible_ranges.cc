@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/posterior/sample_statistics.h"
+
 namespace talus::optimizer {
 namespace {
-
-// Each column by itself in ascending order.
-Eigen::MatrixXd SortedColumns(Eigen::MatrixXd sample) {
-  for (auto column : sample.colwise()) std::sort(column.begin(), column.end());
-  return sample;
-}
 
 // How many draws of a sorted column are not beyond x, from the nearer end: 1 for the outermost. Of
 // equal draws each is as deep as the innermost.

@@ -11,6 +11,7 @@
 #include "optimizer/posterior/credible_ranges.h"
 #include "optimizer/posterior/posterior_sample.h"
 #include "optimizer/posterior/robust_misfit.h"
+#include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
 namespace {
@@ -88,12 +89,6 @@ std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
   return pair;
 }
 
-// Each column in ascending order.
-Eigen::MatrixXd Sorted(Eigen::MatrixXd values) {
-  for (auto column : values.colwise()) std::ranges::sort(column);
-  return values;
-}
-
 // The value in each sorted column that this share lies below.
 Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
   const auto at = static_cast<Eigen::Index>(share * static_cast<double>(sorted.rows() - 1) + 0.5);
@@ -103,7 +98,7 @@ Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
 }  // namespace
 
 double HalfWidth90(const Eigen::VectorXd& values) {
-  const Eigen::MatrixXd sorted = Sorted(values);
+  const Eigen::MatrixXd sorted = SortedColumns(values);
   return 0.5 * (QuantileOf(sorted, 0.5 + 0.5 * kRegionLevel)[0] -
                 QuantileOf(sorted, 0.5 - 0.5 * kRegionLevel)[0]);
 }
@@ -136,7 +131,7 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   }
   constexpr double kTenth = 0.1;
   learning.width = widths.colwise().mean().transpose();
-  const Eigen::MatrixXd sorted = Sorted(widths);
+  const Eigen::MatrixXd sorted = SortedColumns(widths);
   learning.narrow = QuantileOf(sorted, kTenth);
   learning.wide = QuantileOf(sorted, 1 - kTenth);
   return learning;

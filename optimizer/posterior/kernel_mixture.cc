@@ -1,8 +1,8 @@
 #include "optimizer/posterior/kernel_mixture.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/normal.h"
 #include "optimizer/posterior/posterior_sample.h"
 
 namespace talus::optimizer {
@@ -29,8 +29,7 @@ Eigen::MatrixXd KernelMixture::Draw(Eigen::Index count, base::Random& random) co
 
 Eigen::VectorXd KernelMixture::LogDensity(const Eigen::MatrixXd& points) const {
   const double log_root = Eigen::MatrixXd(factor_.matrixL()).diagonal().array().log().sum();
-  const double log_root_two_pi = 0.5 * std::log(2 * std::numbers::pi);
-  const double constant = -log_root - log_root_two_pi * static_cast<double>(centres_.cols()) -
+  const double constant = -log_root - base::kLogRootTwoPi * static_cast<double>(centres_.cols()) -
                           std::log(static_cast<double>(centres_.rows()));
   const Eigen::MatrixXd white = factor_.matrixL().solve(points.transpose());
   const Eigen::MatrixXd centres = factor_.matrixL().solve(centres_.transpose());

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "optimizer/space/ascending.h"
 
 namespace talus::optimizer {
 
@@ -40,12 +41,8 @@ Eigen::MatrixXd Resampled(const Eigen::MatrixXd& draws, const Eigen::VectorXd& w
 }
 
 void PosteriorSample::SetRegion() {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(weight.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return log_density[a] > log_density[b]; });
   double sum = 0;
-  for (const Eigen::Index i : order) {
+  for (const Eigen::Index i : Ascending(-log_density)) {
     region_log_density = log_density[i];
     if ((sum += weight[i]) >= kRegionLevel) break;
   }
@@ -53,7 +50,7 @@ void PosteriorSample::SetRegion() {
 
 double PosteriorSample::CredibleLevel(double at) const {
   const auto denser = log_density.array() > at;
-  if (denser.all()) return 1;  // which the weights sum up to but for rounding
+  if (denser.all()) return 1;  // the weights sum to 1 but for rounding
   return std::min(1.0, denser.select(weight, 0).sum());
 }
 

@@ -3,20 +3,22 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
+#include "optimizer/space/ascending.h"
 #include "optimizer/space/prior_spread.h"
 
 namespace talus::optimizer {
 
+Eigen::MatrixXd SortedColumns(Eigen::MatrixXd sample) {
+  for (auto column : sample.colwise()) std::sort(column.begin(), column.end());
+  return sample;
+}
+
 Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample) {
   Eigen::MatrixXd ranks(sample.rows(), sample.cols());
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.rows()));
   for (Eigen::Index k = 0; k < sample.cols(); ++k) {
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Eigen::Index a, Eigen::Index b) { return sample(a, k) < sample(b, k); });
+    const std::vector<Eigen::Index> order = Ascending(sample.col(k));
     for (std::size_t rank = 0; rank < order.size(); ++rank) {
       ranks(order[rank], k) = static_cast<double>(rank);
     }

@@ -1,4 +1,4 @@
-// How parameters hang together in a sample.
+// A sample's order, and how parameters hang together in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,9 @@
 #include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
+
+// Each column by itself in ascending order.
+Eigen::MatrixXd SortedColumns(Eigen::MatrixXd sample);
 
 // Spearman's rank correlation between the columns of `sample`, one draw a row and no column
 // constant: a valley that is bent is as tight as a straight one.

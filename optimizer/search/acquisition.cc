@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/normal.h"
 
@@ -14,14 +13,6 @@ constexpr double kLeastSd = 1e-150;
 using base::NormalDensity;
 using base::NormalProbability;
 
-// Φ(z) / φ(z) for z << 0, by its continued fraction; 12 terms give 1e-12 for z < -4.
-double MillsRatio(double z) {
-  const double t = -z;
-  double fraction = t;
-  for (int k = 12; k >= 1; --k) fraction = t + k / fraction;
-  return 1 / fraction;
-}
-
 struct LogH {
   double value = 0;
   double slope = 0;  // d ln h / dz = Φ / h
@@ -32,15 +23,14 @@ LogH LogHAt(double z) {
     const double h = NormalDensity(z) + z * NormalProbability(z);
     return {.value = std::log(h), .slope = NormalProbability(z) / h};
   }
-  // h = φ (1 + z M), z = -t. With M = 1/(t + 1/r), r = t + 2/(t + 3/(t + …)), 1 - t M = M / r
-  // without cancellation.
+  // h = φ (1 + z M), z = -t, with Mills's ratio M = Φ(z) / φ(z) = 1/(t + 1/r) and the continued
+  // fraction r = t + 2/(t + 3/(t + …)): 1 - t M = M / r without cancellation. 12 terms give 1e-12.
   const double t = -z;
   double tail = t;
   for (int k = 12; k >= 2; --k) tail = t + k / tail;
-  const double mills = MillsRatio(z);
+  const double mills = 1 / (t + 1 / tail);
   const double rest = mills / tail;  // 1 + z M
-  return {.value = -z * z / 2 - 0.5 * std::log(2 * std::numbers::pi) + std::log(rest),
-          .slope = mills / rest};
+  return {.value = -z * z / 2 - base::kLogRootTwoPi + std::log(rest), .slope = mills / rest};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct AnswerOptions {
   int num_draws = 400;            // posterior draws, > 1
   int num_sobol = 512;            // base sample of the Sobol indices, > 1
   std::uint64_t seed = 1;
-  // Where evaluations more probably fail than work, no minimum is looked for; null: all work.
+  // Points that fail with a probability above 0.5 are left out; null: none.
   const Feasibility* feasibility = nullptr;
 };
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "optimizer/search/size_to_fit.h"
+#include "optimizer/space/ascending.h"
 #include "optimizer/words.h"
 
 namespace talus::optimizer {
@@ -21,10 +21,7 @@ double Rms(const Eigen::ArrayXd& errors) { return std::sqrt(errors.square().mean
 // The error over the better half of the values, where the search is: how far a model misses the
 // worst heaps, which differ most, says nothing of it.
 double ErrorOf(const Eigen::VectorXd& predicted, const Eigen::VectorXd& values) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  std::vector<Eigen::Index> order = Ascending(values);
   order.resize((order.size() + 1) / 2);
   return Rms(predicted(order) - values(order));
 }

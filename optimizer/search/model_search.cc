@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/ascending.h"
 #include "optimizer/space/point_rows.h"
 #include "surrogate/nlopt_minimize.h"
 
@@ -39,12 +39,8 @@ Eigen::MatrixXd Candidates(const Domain& domain, const Eigen::MatrixXd& centers,
 // searches do not all climb one hill.
 std::vector<Eigen::Index> Starts(const Eigen::MatrixXd& candidates, const Eigen::VectorXd& values,
                                  int count) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
   std::vector<Eigen::Index> starts;
-  for (const Eigen::Index i : order) {
+  for (const Eigen::Index i : Ascending(values)) {
     if (static_cast<int>(starts.size()) == count) break;
     const bool near = std::any_of(starts.begin(), starts.end(), [&](Eigen::Index j) {
       return (candidates.row(i) - candidates.row(j)).lpNorm<Eigen::Infinity>() < 0.02;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "optimizer/search/acquisition.h"
+#include "optimizer/space/ascending.h"
 
 namespace talus::optimizer {
 namespace {
@@ -69,11 +69,7 @@ Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
 }  // namespace
 
 Eigen::MatrixXd BestEvaluated(const ModelView& view) {
-  const Eigen::VectorXd mean = view.model.Means(view.points);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return mean[a] < mean[b]; });
+  std::vector<Eigen::Index> order = Ascending(view.model.Means(view.points));
   order.resize(std::min<std::size_t>(order.size(), kNumCenters));
   return view.points(order, Eigen::all);
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "optimizer/search/step_choice.h"
+#include "optimizer/space/ascending.h"
 
 namespace talus::optimizer {
 namespace {
@@ -46,11 +46,7 @@ Link LinkOf(const History& history, Eigen::Index i) {
 // Which evaluations lie in the basin of the best one.
 std::vector<bool> BasinOfBest(const History& history) {
   const Eigen::Index size = history.values.size();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return history.values[a] < history.values[b];
-  });
+  const std::vector<Eigen::Index> order = Ascending(history.values);
   std::vector<Link> links;
   double sum = 0;
   for (const Eigen::Index i : order) {

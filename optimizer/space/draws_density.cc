@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "base/normal.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
@@ -104,7 +104,7 @@ DrawsDensity::Kernel DrawsDensity::MakeKernel(const Eigen::MatrixXd& covariance,
       .root = root,
       .inverse_root = root.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(d, d)),
       .log_constant = std::log(weight) - root.diagonal().array().log().sum() -
-                      0.5 * std::log(2 * std::numbers::pi) * static_cast<double>(d)};
+                      base::kLogRootTwoPi * static_cast<double>(d)};
 }
 
 Eigen::MatrixXd DrawsDensity::CovarianceRound(Eigen::Index draw) const {

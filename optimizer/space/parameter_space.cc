@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -41,33 +42,58 @@ void CheckConstraint(const LinearConstraint& constraint, const std::vector<Param
   }
 }
 
-// The centre of the cube where no guess is given, nothing when there is none at all.
-std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
-  const std::vector<int> free = space.Free();
-  Eigen::VectorXd point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
-  bool any = false;
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    const Parameter& parameter = space.parameters[static_cast<std::size_t>(free[i])];
-    if (!parameter.guess) continue;
-    point[static_cast<Eigen::Index>(i)] = parameter.ToUnit(*parameter.guess);
-    any = true;
-  }
-  if (!any || !space.Satisfies(space.ToNative(point))) return {};
-  return {point};
-}
-
-// Whether values that are all guessed or fixed break it, by more than rounding.
-bool GuessesBreak(const LinearConstraint& constraint, const std::vector<Parameter>& parameters) {
+// Whether the values of the constraint's parameters break it, by more than rounding: 0.1 + 0.2 is
+// at most 0.3. Not where `value_of` a parameter's index is not known.
+template <class ValueOf>
+bool Breaks(const LinearConstraint& constraint, const std::vector<Parameter>& parameters,
+            ValueOf&& value_of) {
   double sum = 0, largest = std::abs(constraint.at_most);
   for (const LinearConstraint::Term& term : constraint.terms) {
-    const Parameter& parameter =
-        parameters[static_cast<std::size_t>(IndexOf(parameters, term.parameter))];
-    const std::optional<double> value = parameter.fixed ? parameter.fixed : parameter.guess;
+    const std::optional<double> value =
+        value_of(static_cast<std::size_t>(IndexOf(parameters, term.parameter)));
     if (!value) return false;
     sum += term.factor * *value;
     largest = std::max(largest, std::abs(term.factor * *value));
   }
   return sum > constraint.at_most + 1e-9 * largest;
+}
+
+bool GuessesBreak(const LinearConstraint& constraint, const std::vector<Parameter>& parameters) {
+  return Breaks(constraint, parameters, [&](std::size_t i) {
+    return parameters[i].fixed ? parameters[i].fixed : parameters[i].guess;
+  });
+}
+
+// What is not guessed stands in the middle or, where constraints forbid that, as near to it as a
+// few draws find. Nothing when nothing is guessed.
+std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
+  constexpr std::uint64_t kDraws = 1000;
+  const std::vector<int> free = space.Free();
+  const auto guess_of = [&](std::size_t i) {
+    return space.parameters[static_cast<std::size_t>(free[i])].guess;
+  };
+  Eigen::VectorXd point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
+  bool any = false;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (!guess_of(i)) continue;
+    const Parameter& parameter = space.parameters[static_cast<std::size_t>(free[i])];
+    point[static_cast<Eigen::Index>(i)] = parameter.ToUnit(*parameter.guess);
+    any = true;
+  }
+  if (!any) return {};
+  if (space.Satisfies(space.ToNative(point))) return {point};
+  std::vector<Eigen::VectorXd> nearest;
+  for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
+    base::Random random(0, base::Stream("guess between constraints"), draw);
+    Eigen::VectorXd other = point;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const double uniform = random.Uniform();
+      if (!guess_of(i)) other[static_cast<Eigen::Index>(i)] = uniform;
+    }
+    if (!nearest.empty() && (other - point).norm() >= (nearest.front() - point).norm()) continue;
+    if (space.Satisfies(space.ToNative(other))) nearest = {other};
+  }
+  return nearest;
 }
 
 bool HasRoom(const ParameterSpace& space) {
@@ -214,12 +240,8 @@ Eigen::VectorXd ParameterSpace::ToUnit(std::span<const double> native) const {
 }
 
 bool ParameterSpace::Satisfies(std::span<const double> native) const {
-  return std::all_of(constraints.begin(), constraints.end(), [&](const LinearConstraint& c) {
-    double sum = 0;
-    for (const LinearConstraint::Term& term : c.terms) {
-      sum += term.factor * native[static_cast<std::size_t>(IndexOf(parameters, term.parameter))];
-    }
-    return sum <= c.at_most;
+  return std::none_of(constraints.begin(), constraints.end(), [&](const LinearConstraint& c) {
+    return Breaks(c, parameters, [&](std::size_t i) { return std::optional(native[i]); });
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "base/normal.h"
@@ -30,8 +29,7 @@ double Prior::Single::Score(double unit) const {
 Prior::Single::Moments Prior::Single::ScoreWithin() const {
   const double a = Score(0), b = Score(1);
   const auto density = base::NormalDensity;
-  const double inside =
-      0.5 * (std::erfc(-b / std::numbers::sqrt2) - std::erfc(-a / std::numbers::sqrt2));
+  const double inside = base::NormalProbability(b) - base::NormalProbability(a);
   const double mean = (density(a) - density(b)) / inside;
   return {.mean = mean,
           .sd = std::sqrt(1 + (a * density(a) - b * density(b)) / inside - mean * mean)};
@@ -41,7 +39,7 @@ double Prior::Single::LogDensity(double unit) const {
   const double score = Score(unit);
   const double slope =  // dt/du
       range.Slope(unit) / (normal.of_logarithm ? range.ToNative(unit) : 1);
-  return std::log(slope / normal.sd) - 0.5 * (score * score + std::log(2 * std::numbers::pi));
+  return std::log(slope / normal.sd) - 0.5 * score * score - base::kLogRootTwoPi;
 }
 
 double Prior::Single::AtScore(double score) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/random.h"
@@ -22,17 +23,18 @@ constexpr double kEdgeError =
 constexpr double kExploring = 4;  // softness of every other sample of candidates
 constexpr int kCandidates = 48;
 
-// Σ |image - what its column edges make of it| / Σ image.
+// Σ |image - what its column edges make of it| / Σ image, at most 1: an image without powder must
+// not outvote the others.
 double EdgeError(const surrogate::FieldCode& code, const std::vector<float>& field,
                  const Eigen::VectorXd& vector) {
   const std::vector<float> decoded = code.Decode(vector);
   double error = 0;
-  double powder = 1e-9;
+  double powder = 0;
   for (std::size_t i = 0; i < field.size(); ++i) {
     error += std::abs(static_cast<double>(field[i]) - static_cast<double>(decoded[i]));
     powder += field[i];
   }
-  return error / powder;
+  return std::min(1.0, error / std::max(powder, 1.0));
 }
 
 // Leaves so many, evenly in their order.
@@ -247,7 +249,7 @@ std::vector<Proposal> PosteriorStrategy::AskAt(int count, std::span<const Propos
 Proposal PosteriorStrategy::Next(std::span<const Proposal> asked) {
   if (auto first = FromDesign(asked)) return *first;
   if (CanModel()) return ByGain(asked);
-  // Most of the design has failed: more of the same.
+  // Too few successes to fit a model: on with Sobol's sequence.
   const int index = static_cast<int>(observations_.size() + asked.size());
   const Eigen::VectorXd point = SobolPoint(domain_, index, options_.seed);
   return {.point = point,
@@ -301,7 +303,7 @@ double PosteriorStrategy::Price(std::span<const Proposal> asked) const {
 Proposal PosteriorStrategy::MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites,
                                         double price) const {
   Proposal best;
-  double most = -1;
+  double most = -std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const Eigen::MatrixXd gains = gain.OfOne(e, sites);
     for (Eigen::Index i = 0; i < sites.rows(); ++i) {

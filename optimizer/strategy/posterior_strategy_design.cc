@@ -81,7 +81,7 @@ std::optional<Proposal> PosteriorStrategy::TooFewAt(const Eigen::VectorXd& point
       const auto is_it = [&](const auto& other) {
         return other.experiment == e && levels_.LevelOf(other.scale_factor) == level;
       };
-      // Where a table holds no more sets, their repeats must do.
+      // A narrow posterior may offer one set again and again: nine repeats stand for three sets.
       const auto count = std::count_if(asked.begin(), asked.end(), is_it) +
                          std::count_if(observations_.begin(), observations_.end(), is_it);
       if (NumSets(asked, kFewestFinerSets, is_it) == kFewestFinerSets) continue;

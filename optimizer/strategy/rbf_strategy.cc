@@ -66,7 +66,9 @@ Proposal RbfStrategy::ByModel(const Points& asked) {
   const double value_weight = kValueWeight[index % kValueWeight.size()];
   const Eigen::VectorXd lowest = Lowest(basis);
   const double least = basis.Predict(lowest);
-  const double range = std::max(history.values.maxCoeff() - least, 1e-300);
+  // Values that are all the same but for rounding say nothing of where to go.
+  const double range = std::max(
+      {history.values.maxCoeff() - least, 1e-9 * history.values.cwiseAbs().maxCoeff(), 1e-300});
   const Feasibility& feasibility = record().feasibility();
   const auto values = [&](const Eigen::MatrixXd& points) {
     Eigen::VectorXd result = -feasibility.Penalty(points);

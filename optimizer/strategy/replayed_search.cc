@@ -98,6 +98,8 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
     std::span<const Eigen::VectorXd> pending) const {
   Memory memory(told_, pending, domain_);
   try {
+    // A search may begin elsewhere: BOBYQA shifts a start near a bound, DIRECT has none.
+    for (const Eigen::VectorXd& guess : domain_.guesses) memory.Answer(guess);
     for (int run = 0; run < (options_.local ? kMaxRuns : 1); ++run) {
       const surrogate::SearchTask task{
           .algorithm = options_.algorithm,

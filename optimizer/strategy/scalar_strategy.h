@@ -15,7 +15,7 @@ class ScalarStrategy : public SurrogateStrategy {
       : SurrogateStrategy(domain, options), search_(options.seed) {}
 
   std::optional<StopReason> WhyStop() override {
-    if (!record().MayStop(static_cast<int>(record().told().size()))) return std::nullopt;
+    if (!record().MayStop(static_cast<int>(record().history().size()))) return std::nullopt;
     return search_.WhyStop(record());
   }
   Answer Recommend() override { return search_.Recommend(record()); }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "base/normal.h"
 #include "base/parallel_for.h"
 #include "surrogate/process/map_fit.h"
 #include "surrogate/process/warp.h"
@@ -243,7 +243,7 @@ Predictions GaussianProcess::LeaveOneOut() const {
 double GaussianProcess::LogLikelihood() const {
   return -0.5 * data_.values.dot(alpha_) - lower_.diagonal().array().log().sum() +
          PoolingTerm(data_, state_.hyper.noise) -
-         data_.num_values() * (0.5 * std::log(2 * std::numbers::pi) + std::log(state_.scale));
+         data_.num_values() * (base::kLogRootTwoPi + std::log(state_.scale));
 }
 
 double GaussianProcess::LogPosterior() const { return LogLikelihood() + log_prior_; }

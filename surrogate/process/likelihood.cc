@@ -3,8 +3,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
+#include "base/normal.h"
 #include "surrogate/process/warp.h"
 
 namespace talus::surrogate {
@@ -214,8 +215,7 @@ double ThetaPrior::LogDensity(const Eigen::VectorXd& theta, Eigen::VectorXd* gra
 }
 
 double ThetaPrior::LogConstant() const {
-  return -sd.array().log().sum() -
-         0.5 * static_cast<double>(sd.size()) * std::log(2 * std::numbers::pi);
+  return -sd.array().log().sum() - base::kLogRootTwoPi * static_cast<double>(sd.size());
 }
 
 }  // namespace talus::surrogate

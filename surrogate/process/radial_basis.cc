@@ -34,19 +34,22 @@ RadialBasis RadialBasis::Fit(const Eigen::MatrixXd& points, const Eigen::VectorX
   basis.function_ = function;
   basis.points_ = points.transpose();
   const Eigen::MatrixXd centred = points.rowwise() - points.colwise().mean();
-  basis.has_slope_ = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(centred).rank() == points.cols();
+  // The plane through d + 1 points leaves nothing to be left out.
+  basis.has_slope_ = points.rows() > points.cols() + 1 &&
+                     Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(centred).rank() == points.cols();
   RadialBasis best = basis;
+  constexpr double kRounding = 1e-9;
   double lowest = std::numeric_limits<double>::infinity();
   std::vector<double> candidates(kSmoothings.begin(), kSmoothings.end());
   if (smoothing) candidates = {*smoothing};
   for (const double candidate : candidates) {
     if (!basis.Solve(values, candidate)) continue;
     const double error = (basis.left_out_ - values).squaredNorm();
-    if (error >= lowest) continue;
+    if (error >= (1 - kRounding) * lowest) continue;  // of equally good ones the least
     lowest = error;
     best = basis;
   }
-  if (std::isinf(lowest)) {  // a single point, or all at one point
+  if (std::isinf(lowest)) {  // a single point
     best.weights_ = Eigen::VectorXd::Zero(values.size());
     best.constant_ = values.mean();
     best.slope_ = Eigen::VectorXd::Zero(points.cols());

@@ -20,6 +20,7 @@ struct FakeEngineOptions {
   bool die_once = false;              // every third trial is ended by SIGKILL when it is run first
   bool fail_at_low = false;           // no heap below μ_t = 0.3
   bool fail_fast_at_low = false;      // the same, where the tube is lifted fast
+  bool fail_fast = false;             // no heap at all, where the tube is lifted fast
   bool fail_once = false;             // every trial's first seed fails
   int fail_first = 0;                 // so many trials fail
   bool seed_in_reason = false;        // every trial fails, and quotes its seed in two lines
@@ -71,9 +72,11 @@ class FakeEngine : public trials::TrialEngine {
       script += "if [ ! -e died ]; then touch died; kill -9 $$; fi\n";
     }
     constexpr double kFast = 0.1;  // [m/s]
-    const bool fails = options_.fail_at_low || (options_.fail_fast_at_low &&
-                                                rig_case.rig.lifted_tube.lift_velocity > kFast);
-    if (fails && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
+    const bool is_fast = rig_case.rig.lifted_tube.lift_velocity > kFast;
+    const bool fails_at_low = options_.fail_at_low || (options_.fail_fast_at_low && is_fast);
+    const bool fails =
+        (fails_at_low && m.sliding_friction < 0.3) || (options_.fail_fast && is_fast);
+    if (fails) script += "echo no heap >&2; exit 3\n";
     if (std::stoi(folder.filename()) <= options_.fail_first) script += "exit 5\n";
     if (options_.seed_in_reason)
       script += "echo seed " + std::to_string(seed) + "; echo lost atoms; exit 4\n";

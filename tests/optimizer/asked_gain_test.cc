@@ -15,7 +15,8 @@ const Levels kLevels({1}, 1);
 
 // One number that a parameter and a second one move alike, seen at a few sets with noise.
 struct Sum {
-  explicit Sum(double nuisance_sd) {
+  explicit Sum(double nuisance_sd, double weight = 1) {
+    target.weight = weight;
     if (nuisance_sd <= 0) return;
     domain.nuisances = {1};
     domain.prior.Add(1, {.low = 0, .high = 1}, {.mean = 0.5, .sd = nuisance_sd});
@@ -70,6 +71,20 @@ TEST(AskedGain, WhatANuisanceHidesAnywayIsNotWorthASimulation) {
   EXPECT_GT(one, 0);
   EXPECT_LT(one, gain.OfAll()[0]);
   EXPECT_LT(one, model.Gains(kDraws, kDraws)(0, 0));
+}
+
+// It was negative where a nuisance hides most, and what taught least looked best.
+TEST(AskedGain, AnExperimentOfLittleWeightGainsLittleButNeverLessThanNothing) {
+  double last = 0;
+  for (const double weight : {0.1, 0.5, 1.0}) {
+    const Sum sum(0.3, weight);
+    const Posterior posterior = sum.Make();
+    const AskedGain gain(posterior, sum.domain, kDraws);
+    EXPECT_GT(gain.OfAll()[0], last);
+    EXPECT_GT(gain.OfOne(0, kDraws)(0, 0), 0);
+    EXPECT_LT(gain.OfOne(0, kDraws)(0, 0), gain.OfAll()[0]);
+    last = gain.OfAll()[0];
+  }
 }
 
 }  // namespace asked_gain_test

@@ -79,6 +79,29 @@ TEST(ParameterSpace, AGuessMustMeetTheConstraints) {
   EXPECT_THAT(ErrorOf(with_guess(0.6)), HasSubstr("constraints[0]: is not met by the guesses"));
 }
 
+// 0.1 + 0.2 is above 0.3, but for rounding.
+TEST(ParameterSpace, APointOnAConstraintMeetsIt) {
+  const ParameterSpace space = Load(R"({"parameters": [
+      {"name": "a", "low": 0, "high": 1, "guess": 0.1},
+      {"name": "b", "low": 0, "high": 1, "guess": 0.2}],
+    "constraints": [{"terms": [{"parameter": "a"}, {"parameter": "b"}], "at_most": 0.3}]})");
+  EXPECT_TRUE(space.Satisfies(std::vector<double>{0.1, 0.2}));
+  EXPECT_FALSE(space.Satisfies(std::vector<double>{0.1, 0.2 + 1e-6}));
+  EXPECT_EQ(space.MakeDomain().guesses.size(), 1u);
+}
+
+// The middle of what is not guessed breaks the constraint; the guess was dropped without a word.
+TEST(ParameterSpace, WhatIsNotGuessedMovesBetweenTheConstraints) {
+  const ParameterSpace space = Load(R"({"parameters": [
+      {"name": "a", "low": 0, "high": 1, "guess": 0.3}, {"name": "b", "low": 0, "high": 1}],
+    "constraints": [{"terms": [{"parameter": "a"}, {"parameter": "b"}], "at_most": 0.5}]})");
+  const std::vector<Eigen::VectorXd> guesses = space.MakeDomain().guesses;
+  ASSERT_EQ(guesses.size(), 1u);
+  EXPECT_EQ(guesses[0][0], 0.3);
+  EXPECT_LE(guesses[0][1], 0.2);
+  EXPECT_GT(guesses[0][1], 0.19);  // the nearest of 1000 draws to 0.5, of which 200 are below 0.2
+}
+
 TEST(CandidateTable, SemicolonsSeparateWhereThereAreNoCommas) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "semicolons.csv";
   std::ofstream(path) << "b;a\n1.5;2\n3;4\n";

@@ -40,6 +40,22 @@ TEST(RbfStrategy, DoesNotRecommendWhereEvaluationsFail) {
   EXPECT_LT(strategy->Recommend().point[0], 0.75);  // the nearest failure seen is beyond 0.6
 }
 
+// Rounding errors of equal values were taken for a landscape, and a third of the points crowded.
+TEST(RbfStrategy, WhereAllValuesAreEqualItFillsTheSpace) {
+  const auto strategy =
+      MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
+  std::vector<Eigen::VectorXd> points;
+  int num_crowded = 0;
+  for (int i = 0; i < 24; ++i) {
+    const Eigen::VectorXd point = strategy->Ask(1, {}).at(0).point;
+    // 24 points at equal distances in the square lie 0.2 apart.
+    for (const Eigen::VectorXd& other : points) num_crowded += (point - other).norm() < 0.04;
+    points.push_back(point);
+    strategy->Tell({.point = point, .value = 0.3});
+  }
+  EXPECT_LE(num_crowded, 5);  // every fifth step has no term of distance, and one step is a repeat
+}
+
 TEST(RbfStrategy, ToldTheSameProposesTheSameAndBatchesDiffer) {
   const auto first = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
   const auto second = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);

@@ -34,6 +34,14 @@ TEST_P(EverySearch, ToldTheSameGoesOnTheSame) {
   EXPECT_EQ(first->Ask(1, {})[0].point, second->Ask(1, {})[0].point);
 }
 
+// BOBYQA shifts a start that is near a bound, DIRECT has none.
+TEST_P(EverySearch, TriesAGuessFirst) {
+  const Eigen::VectorXd guess = Eigen::Vector3d(0.05, 0.5, 0.98);
+  const auto strategy = MakeStrategy({.kind = GetParam()},
+                                     Domain{.num_parameters = 3, .guesses = {guess}}, nullptr, 7);
+  EXPECT_EQ(strategy->Ask(1, {}).at(0).point, guess);
+}
+
 TEST_P(EverySearch, BatchesHoldNoPointTwiceAndNoPendingOne) {
   const auto strategy = Make(GetParam());
   std::vector<Eigen::VectorXd> asked;

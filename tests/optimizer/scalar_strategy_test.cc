@@ -236,6 +236,16 @@ TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
   EXPECT_FALSE(strategy.WhyStop());
 }
 
+// The rule that ends a search asked a model of no values.
+TEST(ScalarStrategy, AnExactSearchStandsThatEverythingFails) {
+  ScalarStrategy strategy(Domain{.num_parameters = 2}, {.num_initial = 3, .exact = true});
+  for (int i = 0; i < 12; ++i) {
+    const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
+    strategy.Tell({.point = point, .failed = true});
+    EXPECT_FALSE(strategy.WhyStop().has_value());
+  }
+}
+
 // Some commands return a large number where they fail; one such made all that was left to gain look
 // small.
 TEST(ScalarStrategy, APenaltyDoesNotEndAnExactSearch) {

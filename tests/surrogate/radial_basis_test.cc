@@ -86,6 +86,18 @@ TEST_P(BothFunctions, StandsDuplicatesAndTooFewPoints) {
   EXPECT_EQ(one.Predict(Eigen::Vector2d(0.9, 0.1)), data.values[0]);
 }
 
+// A plane through d + 1 points leaves nothing over to choose a smoothing by: rounding chose it, and
+// two values became a constant, two others a line.
+TEST_P(BothFunctions, OfTwoPointsOnALineOnlyTheScaleOfTheirValuesMatters) {
+  const Eigen::MatrixXd points = Eigen::Vector2d(0.2, 0.9);
+  const auto share = [&](const Eigen::Vector2d& values) {
+    const RadialBasis basis = RadialBasis::Fit(points, values, GetParam());
+    const double there = basis.Predict(Eigen::VectorXd::Constant(1, 0.3));
+    return (there - values[1]) / (values[0] - values[1]);
+  };
+  EXPECT_NEAR(share({3.52, 1.18}), share({3.10, 2.43}), 1e-9);  // rounding
+}
+
 INSTANTIATE_TEST_SUITE_P(All, BothFunctions,
                          testing::Values(RadialFunction::kCubic, RadialFunction::kThinPlate));
 

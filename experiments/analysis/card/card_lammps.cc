@@ -185,7 +185,11 @@ std::string LammpsRemarks(const Card& card) {
   } else if (card.models.adhesion == engine::Adhesion::kJkr) {
     text +=
         "# LAMMPS pulls beyond touch, up to 1.5 pi gamma* R*, and its dashpot goes with the radius "
-        "of the JKR contact:\n# slow collisions rebound where they stick in talus.\n";
+        "of the JKR contact:\n# slow collisions rebound where they stick in talus. NOT USABLE at "
+        "walls "
+        "in LAMMPS of 29 September 2021\n# (Debian 12): a grain that lets go of a jkr wall is at "
+        "nan "
+        "from then on. Take dmt for the walls, or a later LAMMPS.\n";
     if (card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
       text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
     }

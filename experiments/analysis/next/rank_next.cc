@@ -322,9 +322,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   for (const int i : view.space.Free()) {
     table.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
   }
-  for (const journal::TrialRecord& trial : view.trials) {
-    if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
-  }
+  table.last_trial = view.LastEnded();
   table.width = ground.Learn({.mean = Eigen::MatrixXd(kDraws, 0), .variance = {}}).width;
   Cost cost(view);
   AddMoreOfTheSame(ground, experiments, cost, table.candidates);

@@ -110,14 +110,6 @@ class Predictor {
     return {design_.weights, RunsOf(stages_, design_.weights.size()), ScaleFactor()};
   }
 
-  std::int64_t LastTrial() const {
-    std::int64_t last = 0;
-    for (const journal::TrialRecord& trial : view_.trials) {
-      if (trial.status != journal::TrialStatus::kRunning) last = std::max(last, trial.id);
-    }
-    return last;
-  }
-
   // Draws have as many parameters as are searched now.
   bool HasPoints(const PredictionDesign& design) const {
     return std::ranges::all_of(design.points, [&](const std::vector<double>& point) {
@@ -132,7 +124,7 @@ class Predictor {
                             .frame = FrameText(case_),
                             .by = options_.By(),
                             .num_draws = num_draws_,
-                            .last_trial = LastTrial(),
+                            .last_trial = view_.LastEnded(),
                             .stages = {},
                             .source = SourceSeenFrom(view_.folder.root, options_.file)};
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);

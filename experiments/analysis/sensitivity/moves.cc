@@ -13,6 +13,7 @@
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/trials/engines/case_values.h"
 
 namespace talus::analysis {
 namespace {
@@ -51,6 +52,23 @@ bool IsSearched(const campaign::JointView& view, const std::string& parameter) {
   });
 }
 
+std::string ProblemsOf(const std::string& what, const rigs::Case& rig_case) {
+  base::Problems problems(what, {});
+  base::TreeValidator(problems).Check(rig_case);
+  if (problems.empty()) rigs::ValidateCase(rig_case, problems);
+  return problems.Text();
+}
+
+// By which another engine's templates may take it: the parameter's own or what it changes.
+void AddPlaceholders(const campaign::JointView& view, const rigs::Case& c, Move& move) {
+  move.placeholders = {move.name};
+  if (view.spec.engine.kind != campaign::EngineKind::kCommand) return;
+  rigs::Case moved = c;
+  move.apply(moved);
+  if (!ProblemsOf(move.name, moved).empty()) return;
+  move.placeholders = trials::PlaceholdersOf(move.name, c, moved);
+}
+
 using Change = double (*)(double);
 
 // A parameter by what the change makes of it, in each experiment of what it is there.
@@ -62,11 +80,10 @@ void AddParameter(const campaign::JointView& view, const rigs::Case& c, const st
   moves.push_back({.name = name,
                    .from = base::WithUnit(from, unit),
                    .to = base::WithUnit(change(from), unit),
-                   .apply =
-                       [name, change](rigs::Case& moved) {
-                         campaign::SetParameter(moved, name, change(ValueOf(moved, name)));
-                       },
-                   .placeholders = {name}});
+                   .apply = [name, change](rigs::Case& moved) {
+                     campaign::SetParameter(moved, name, change(ValueOf(moved, name)));
+                   }});
+  AddPlaceholders(view, c, moves.back());
 }
 
 // A tenth either way of grains that are all alike; else every diameter's ratio to the median to the
@@ -102,20 +119,14 @@ void AddPowder(const campaign::JointView& view, const rigs::Case& c, std::vector
                    .from = alike ? "one diameter" : "as given",
                    .to = alike ? "10 % either way" : "a quarter wider",
                    .apply = [](rigs::Case& moved) { Widen(moved.powder.sizes); },
-                   .placeholders = {"grains", "smallest_diameter", "largest_diameter"}});
+                   .placeholders = {"grains", "num_grains", "smallest_diameter", "mean_diameter",
+                                    "largest_diameter"}});
   if (IsSearched(view, kFill) || IsSearched(view, "mass")) return;
   moves.push_back({.name = "mass",
                    .from = base::WithUnit(1e3 * c.powder.mass, "g"),
                    .to = base::WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),
                    .apply = [](rigs::Case& moved) { moved.powder.mass *= kMoreMass; },
                    .placeholders = {"grains", "mass", "num_grains"}});
-}
-
-std::string ProblemsOf(const std::string& what, const rigs::Case& rig_case) {
-  base::Problems problems(what, {});
-  base::TreeValidator(problems).Check(rig_case);
-  if (problems.empty()) rigs::ValidateCase(rig_case, problems);
-  return problems.Text();
 }
 
 // The filling that it does not have, where its rig takes that one: a drum is filled densely only.
@@ -236,7 +247,7 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
   } catch (const base::ConfigError& error) {
     throw base::ConfigError(name + ": " + error.what());
   }
-  const double from = ValueOf(c, name);
+  const double from = campaign::HeldAt(view.space, c, name).value_or(ValueOf(c, name));
   if (from == to) {
     throw base::ConfigError(name + ": is " + text + " in the campaign already; name another value");
   }
@@ -244,8 +255,10 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
   Move move{.name = name,
             .from = base::WithUnit(from, unit),
             .to = base::WithUnit(to, unit),
-            .apply = [name, to](rigs::Case& moved) { campaign::SetParameter(moved, name, to); },
-            .placeholders = {name}};
+            .apply = [name, set_to = campaign::IsFactor(name) ? to / from : to](rigs::Case& moved) {
+              campaign::SetParameter(moved, name, set_to);
+            }};
+  AddPlaceholders(view, c, move);
   if (const std::string why = WhyNotMoved(move, c); !why.empty()) throw base::ConfigError(why);
   return move;
 }

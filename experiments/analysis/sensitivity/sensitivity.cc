@@ -138,10 +138,7 @@ class Study {
   }
 
   SensitivityTable Head() const {
-    SensitivityTable table{.scale_factor = setting_.scale_factor};
-    for (const journal::TrialRecord& trial : view_.trials) {
-      if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
-    }
+    SensitivityTable table{.scale_factor = setting_.scale_factor, .last_trial = view_.LastEnded()};
     for (const optimizer::ExperimentStanding& standing : answer_.posterior->experiments) {
       table.implausibility = std::max(table.implausibility, standing.implausibility);
     }

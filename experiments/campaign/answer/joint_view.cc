@@ -41,6 +41,14 @@ std::vector<int> JointView::All() const {
   return all;
 }
 
+std::int64_t JointView::LastEnded() const {
+  std::int64_t last = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status != journal::TrialStatus::kRunning) last = std::max(last, trial.id);
+  }
+  return last;
+}
+
 std::vector<int> JointView::Answered() const {
   std::vector<int> answered = All();
   if (spec.hold_out) std::erase(answered, IndexOf(*spec.hold_out));

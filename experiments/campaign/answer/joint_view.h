@@ -31,6 +31,8 @@ struct JointView {
   const std::string& NameOf(int experiment) const {
     return record.experiments[static_cast<std::size_t>(experiment)].name;
   }
+  // The id of the latest trial that has ended; 0: none.
+  std::int64_t LastEnded() const;
   // All of them, by index.
   std::vector<int> All() const;
   // Those that the campaign's answer meets: all but the one that its spec holds out.

@@ -116,6 +116,7 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
   const bool is_beginning = !std::filesystem::exists(folder.campaign());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     const journal::ExperimentRecord& experiment = record.experiments[e];
+    if (experiment.aehp_png.empty() && experiment.runs.empty()) continue;  // numbers only
     const std::filesystem::path place = folder.experiment(e);
     std::filesystem::create_directories(place);
     KeepImage(place / kAehp, experiment.aehp_png, is_beginning);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <optional>
-#include <utility>
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
@@ -57,14 +57,15 @@ TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double sca
   return {SizeOfRun(TypicalCase(spec, experiment, scale_factor)), experiment, scale_factor};
 }
 
-// [s] of one candidate's replicate, at every experiment.
-double ConfirmTime(const CampaignSpec& spec, double speed) {
-  const double factor = spec.ConfirmScaleFactor();
-  double time = 0;
+// One replicate of a candidate, at every experiment; none where nothing is confirmed.
+std::vector<TrialEstimate> ConfirmingTrials(const CampaignSpec& spec, double speed) {
+  std::vector<TrialEstimate> trials;
+  if (MostConfirming(spec) == 0) return trials;
   for (int e = 0; e < static_cast<int>(ExperimentsOf(spec).size()); ++e) {
-    time += EstimateTrial(spec, e, factor).grain_steps / speed;
+    trials.push_back(EstimateTrial(spec, e, spec.ConfirmScaleFactor()));
+    trials.back().core_seconds = trials.back().grain_steps / speed;
   }
-  return time;
+  return trials;
 }
 
 // How many trials the search makes, at most: without a number, trials that cost as much as one
@@ -118,10 +119,10 @@ std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
 
 std::string TimeText(const CampaignEstimate& e) {
   const double trial_time = e.trials.front().core_seconds;
+  const double confirm_time = e.confirming.empty() ? trial_time : e.confirming.front().core_seconds;
   return "  time              about " + trials::DurationText(trial_time) + " a trial, " +
-         (e.confirm_time == trial_time
-              ? ""
-              : trials::DurationText(e.confirm_time) + " a confirming one, ") +
+         (confirm_time == trial_time ? ""
+                                     : trials::DurationText(confirm_time) + " a confirming one, ") +
          trials::DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) +
          " trials, " + std::to_string(e.num_workers) + " at a time\n";
 }
@@ -130,7 +131,12 @@ std::string TimeText(const CampaignEstimate& e) {
 std::vector<std::string> TooLongTrials(const CampaignSpec& spec, const CampaignEstimate& e) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   std::vector<std::string> texts;
-  for (const TrialEstimate& trial : e.trials) {
+  const std::vector<double> levels = spec.coarse_graining.Levels();
+  std::vector<TrialEstimate> all = e.trials;
+  std::ranges::copy_if(e.confirming, std::back_inserter(all), [&](const TrialEstimate& trial) {
+    return std::ranges::find(levels, trial.scale_factor) == levels.end();
+  });
+  for (const TrialEstimate& trial : all) {
     const double takes = trial.core_seconds / spec.threads;  // [s]
     if (takes <= spec.trial_time_cap) continue;
     texts.push_back(experiments[static_cast<std::size_t>(trial.experiment)].name +
@@ -215,10 +221,11 @@ int MostConfirming(const CampaignSpec& spec) {
 }
 
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
-  TrialEstimates made = EstimateTrials(spec);
-  CampaignEstimate e{.trials = std::move(made.trials), .grain_steps_per_s = made.grain_steps_per_s};
+  CampaignEstimate e{EstimateTrials(spec)};
   const double dearest = std::ranges::max(e.trials, {}, &TrialEstimate::core_seconds).core_seconds;
-  e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
+  e.confirming = ConfirmingTrials(spec, e.grain_steps_per_s);
+  double confirm_time = 0;  // [s], of one replicate by every experiment
+  for (const TrialEstimate& trial : e.confirming) confirm_time += trial.core_seconds;
   const int num_confirming = MostConfirming(spec);
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
   e.num_workers = MostAtATime(spec, NumCores());
@@ -230,10 +237,10 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   const int at_once =
       is_here ? std::clamp(NumCores() / CoresOfTrial(spec), 1, e.num_workers) : e.num_workers;
   // Proposals come one after another, and nothing is over before a trial and its confirmation.
-  const double in_turn =
-      (std::min(search, spec.budget.core_time.value_or(search)) + e.confirm_time * num_confirming) /
-      (at_once * spec.threads);
-  const double least = (dearest + (num_confirming > 0 ? e.confirm_time : 0)) / spec.threads;
+  const double in_turn = (std::min(search, spec.budget.core_time.value_or(search)) +
+                          confirm_time * spec.confirm.MostTrials()) /
+                         (at_once * spec.threads);
+  const double least = (dearest + confirm_time) / spec.threads;
   e.campaign_time = std::max(in_turn, least) + e.proposal_time;
   return e;
 }

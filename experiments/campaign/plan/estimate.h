@@ -33,22 +33,20 @@ struct TrialEstimate : RunEstimate {
   double scale_factor = 1;
 };
 
-struct CampaignEstimate {
-  std::vector<TrialEstimate> trials;  // by experiment, then the coarsest first
-  double grain_steps_per_s = 0;       // of one core, measured here
-  double confirm_time = 0;            // [s], of a trial that confirms, maybe of finer grains
-  double proposal_time = 0;           // [s] of a core, for choosing all trials
-  int num_trials = 0;  // at most: noise, search and confirmation; 0: only core time ends it
-  int num_workers = 0;
-  double campaign_time = 0;  // [s], at most
-};
-
 // A trial of each experiment at each scale factor. Simulates for about a second of processor time.
 struct TrialEstimates {
   std::vector<TrialEstimate> trials;  // by experiment, then the coarsest first
   double grain_steps_per_s = 0;       // of one core, measured here
 };
 TrialEstimates EstimateTrials(const CampaignSpec& spec);
+
+struct CampaignEstimate : TrialEstimates {
+  std::vector<TrialEstimate> confirming{};  // of each experiment, maybe of finer grains
+  double proposal_time = 0;                 // [s] of a core, for choosing all trials
+  int num_trials = 0;  // at most: noise, search and confirmation; 0: only core time ends it
+  int num_workers = 0;
+  double campaign_time = 0;  // [s], at most
+};
 
 // Trials that confirm the answer, of all experiments, at most.
 int MostConfirming(const CampaignSpec& spec);

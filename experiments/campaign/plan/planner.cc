@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "base/random.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
@@ -68,21 +69,31 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
       ObservationOf(trial, ReferenceOf(trial), std::move(field));
   posterior_->Tell(observation);
   if (proposer_) proposer_->Tell(observation);
-  CheckThatSomeSucceed(trial.reason);
+  CheckThatSomeSucceed(trial);
   CheckThatNumbersAreDefined(trial.experiment);
 }
 
-// A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
-void Planner::CheckThatSomeSucceed(const std::string& last) {
-  if (!HaveFirstAllFailed(trials_)) return;
-  const auto failed =
-      std::ranges::count(trials_, journal::TrialStatus::kFailed, &journal::TrialRecord::status);
-  StopSearch({.kind = StopKind::kAllFailed, .value = static_cast<double>(failed), .cause = last});
+std::string Planner::NameAmongSeveral(int experiment) const {
+  return references_.size() == 1 ? ""
+                                 : ExperimentsOf(spec_)[static_cast<std::size_t>(experiment)].name;
+}
+
+// An experiment whose first trials all fail has a mistake in its set-up; going on would only cost.
+// Also one that is held out: without it there is nothing to predict.
+void Planner::CheckThatSomeSucceed(const journal::TrialRecord& last) {
+  const std::set<int> failing = FailingExperiments(trials_);
+  if (!failing.contains(last.experiment)) return;
+  const auto failed = std::ranges::count_if(trials_, [&](const journal::TrialRecord& trial) {
+    return trial.status == journal::TrialStatus::kFailed && failing.contains(trial.experiment);
+  });
+  StopSearch({.kind = StopKind::kAllFailed,
+              .value = static_cast<double>(failed),
+              .cause = last.reason,
+              .experiment = failing.size() == 1 ? NameAmongSeveral(last.experiment) : ""});
 }
 
 // Nor does a number teach anything that no set defines.
 void Planner::CheckThatNumbersAreDefined(int experiment) {
-  if (spec_.hold_out == ExperimentsOf(spec_)[static_cast<std::size_t>(experiment)].name) return;
   std::vector<const journal::TrialRecord*> done;
   for (const journal::TrialRecord& trial : trials_) {
     const bool ok = trial.status == journal::TrialStatus::kOk;
@@ -95,7 +106,8 @@ void Planner::CheckThatNumbersAreDefined(int experiment) {
     if (std::ranges::any_of(done, has_it)) continue;
     StopSearch({.kind = StopKind::kUndefined,
                 .value = static_cast<double>(done.size()),
-                .cause = scalar.name});
+                .cause = scalar.name,
+                .experiment = NameAmongSeveral(experiment)});
   }
 }
 
@@ -294,7 +306,7 @@ std::optional<optimizer::Answer> Planner::Recommend() {
   const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
     return t.IsOfSearch() && t.status == journal::TrialStatus::kOk && ReferenceOf(t).IsMeasured(t);
   });
-  if (!any) return std::nullopt;
+  if (!any || !FailingExperiments(trials_).empty()) return std::nullopt;
   LeaveCoresToTrials();
   return posterior_->Recommend();
 }

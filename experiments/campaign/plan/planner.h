@@ -48,7 +48,8 @@ class Planner {
   // What the strategy's own rule lacks; nothing where the budget did not end the search.
   std::optional<optimizer::StopShortfall> Shortfall();
 
-  // What the trials so far say; nothing before the first that succeeded.
+  // What the trials so far say; nothing before the first that succeeded, or where an experiment is
+  // set up wrongly (FailingExperiments).
   std::optional<optimizer::Answer> Recommend();
 
   // The sets to be confirmed; none where the spec asks for none.
@@ -112,7 +113,8 @@ class Planner {
   bool Confirms(const journal::TrialRecord& trial, std::int64_t set, int experiment) const;
   int NumOfSearch() const;  // that the strategies are told of, noise and reused ones included
   int NumPaidFor() const;   // … without the reused ones
-  void CheckThatSomeSucceed(const std::string& last);  // reason of the trial that was just told
+  std::string NameAmongSeveral(int experiment) const;  // empty where there is one only
+  void CheckThatSomeSucceed(const journal::TrialRecord& last);
   void CheckThatNumbersAreDefined(int experiment);
 
   const CampaignSpec spec_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -17,7 +18,8 @@ enum class StopKind {
   kSimulations,  // the budget of `value` simulations is used
   kCoreTime,     // … of `value` seconds of core time
   kWallClock,    // … of `value` seconds of work
-  kAllFailed,    // the first `value` trials all failed; `cause` is what the last one did
+  kAllFailed,    // the first `value` trials, of all or of `experiment`, all failed; `cause` is what
+                 // the last one did
   kUndefined,    // none of the first `value` trials defines the measured number `cause`
   kNothingLeft,  // the strategy has no more to propose
 };
@@ -28,6 +30,8 @@ struct Stop {
   double value = 0;
   std::optional<optimizer::StopReason> rule{};
   std::string cause{};  // a failed trial's own words, or the name of a number
+  std::string
+      experiment{};  // whose trials these are; empty where there is one, or where all are meant
 
   std::string Text() const;
 
@@ -37,6 +41,7 @@ struct Stop {
     visit("value", self.value);
     visit("rule", self.rule);
     visit("cause", self.cause);
+    visit("experiment", self.experiment);
     std::string text = self.Text();  // for people; made anew wherever it is read
     visit("text", text);
   }
@@ -45,8 +50,9 @@ struct Stop {
 // So many failures and no success: the set-up is wrong.
 inline constexpr std::size_t kFailuresToGiveUp = 8;
 
-// Whether all of its trials, kFailuresToGiveUp or more, have failed. Reused ones do not count: the
+// The experiments that are set up wrongly: each of whose trials, kFailuresToGiveUp or more, have
+// all failed, or every one where no trial at all has succeeded. Reused ones do not count: the
 // set-up of others worked.
-bool HaveFirstAllFailed(std::span<const journal::TrialRecord> trials);
+std::set<int> FailingExperiments(std::span<const journal::TrialRecord> trials);
 
 }  // namespace talus::campaign

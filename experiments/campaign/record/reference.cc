@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace talus::campaign {
 namespace {
@@ -66,7 +66,7 @@ imaging::Measured Reference::AngleOf(const imaging::GrayImage& image) const {
   const auto angles = imaging::MeasureRepose(image, aehp_.profile.frame, options_.metrics.repose);
   imaging::Measured angle =
       angles.at(static_cast<std::size_t>(MethodOf(options_.objective)) - 1).mean;
-  angle.value *= 180 / std::numbers::pi;
+  angle.value /= base::kDegree;
   return angle;
 }
 

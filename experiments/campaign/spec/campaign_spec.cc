@@ -1,7 +1,9 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
@@ -74,12 +76,36 @@ void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
     trials::CheckCommand(spec.engine.command,
                          {.rig_case = rig_case,
                           .searched = searched,
+                          .has_several_sizes = spec.coarse_graining.Levels().size() > 1,
                           .elsewhere = spec.runner.kind != RunnerKind::kLocal},
                          problems);
   });
 }
 
 namespace {
+
+// Of the powder, a wall or a pair: what the contact laws do not ask for changes nothing.
+void RequireEffect(const ParameterRanges& parameters, const engine::ContactModels& models,
+                   base::Problems& problems) {
+  const bool adheres = models.adhesion != engine::Adhesion::kNone;
+  const std::map<std::string, std::pair<bool, const char*>> needs{
+      {"surface_energy", {adheres, "has no effect without adhesion; set models.adhesion"}},
+      {"hamaker_constant",
+       {models.adhesion == engine::Adhesion::kDmt,
+        "has no effect but with models.adhesion \"dmt\"; set that"}},
+      {"rolling_friction",
+       {models.rolling != engine::Rolling::kNone,
+        "has no effect without a rolling model; set models.rolling"}},
+      {"rolling_damping",
+       {models.rolling == engine::Rolling::kEpsd,
+        "has no effect but with models.rolling \"epsd\"; set that"}}};
+  for (const optimizer::Parameter& parameter : MakeSpace(parameters).parameters) {
+    const auto need = needs.find(PlaceOf(parameter.name).property);
+    if (need == needs.end()) continue;
+    const auto& [is_met, why] = need->second;
+    problems.Require(is_met, "parameters." + parameter.name, std::string(why) + " or leave it out");
+  }
+}
 
 bool IsGiven(const nlohmann::json& root, const char* section, const char* key) {
   return root.contains(section) && root[section].is_object() && root[section].contains(key);
@@ -182,12 +208,7 @@ void CampaignSpec::Validate(base::Problems& problems) const {
                    "an image: the others minimise one objective only");
   if (!parameters) return;
   problems.Within("parameters", [&] { ValidateRanges(*parameters, powder.material, problems); });
-  problems.Require(!parameters->surface_energy || models.adhesion != engine::Adhesion::kNone,
-                   "parameters.surface_energy",
-                   "has no effect without adhesion; set models.adhesion or leave it out");
-  problems.Require(!parameters->rolling_friction || models.rolling != engine::Rolling::kNone,
-                   "parameters.rolling_friction",
-                   "has no effect without a rolling model; set models.rolling or leave it out");
+  RequireEffect(*parameters, models, problems);
 }
 
 bool CampaignSpec::HasOwnProposer() const {

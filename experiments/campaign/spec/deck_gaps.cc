@@ -101,4 +101,15 @@ void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems) {
   }
 }
 
+std::optional<std::string> NoSeedWarning(const CampaignSpec& spec) {
+  if (spec.engine.kind != EngineKind::kCommand) return std::nullopt;
+  const trials::TemplateFolder templates(*spec.engine.command.templates);
+  for (const char* name : {"seed", "prime_seed", "grains"}) {
+    if (templates.Uses(spec.engine.command, name)) return std::nullopt;
+  }
+  return "the engine's templates take no {{ seed }}, {{ prime_seed }} or {{# grains }}: unless the "
+         "deck draws its own, repeated and confirming trials are one run again, and the noise is "
+         "taken to be none";
+}
+
 }  // namespace talus::campaign

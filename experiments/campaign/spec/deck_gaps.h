@@ -2,6 +2,9 @@
 // placeholders tell it, and what they do not tell is the same for all.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/problems.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
@@ -10,5 +13,9 @@ namespace talus::campaign {
 // An experiment which differs from a former one in what no template takes would be that one
 // simulated again. Nothing where the engine is ours.
 void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems);
+
+// What is to be said of a deck that takes no seed, nor grains in place: repeated trials may be one
+// run again. Nothing where it does, or where the engine is ours.
+std::optional<std::string> NoSeedWarning(const CampaignSpec& spec);
 
 }  // namespace talus::campaign

@@ -165,7 +165,7 @@ void SetDrumDiameters(CampaignSpec& spec) {
 }
 
 void SetDrumFills(CampaignSpec& spec) {
-  if (spec.parameters && spec.parameters->fill) return;
+  if (spec.parameters && (spec.parameters->fill || spec.parameters->mass)) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!ShowsDrum(all[i]) || all[i].mass || HasFill(all[i]) || !IsAroundDrum(all[i])) continue;

@@ -34,8 +34,8 @@ struct GrainSizes {
 
   std::vector<double> Levels() const;  // the scale factors that are simulated, the coarsest first
   double Target() const;               // that the answer is for
-  // Whether trials of several sizes are to be put together, or a size nobody simulates be told.
-  double Finest() const { return Levels().back(); }  // of those
+  double Finest() const { return Levels().back(); }  // of those that are simulated
+  // Whether trials of several sizes are put together, or a size is told that nobody simulates.
   bool AreSeveral() const { return Levels().size() > 1 || Target() < Levels().back(); }
 };
 

@@ -18,7 +18,9 @@ void RefuseRangesOfFixed(const json& root, base::Problems& problems) {
   if (parameters == root.end() || !parameters->is_object()) return;
   for (const auto& [name, range] : parameters->items()) {
     if (!range.is_object() || range.value("fixed", json()).is_null()) continue;
-    const auto stands_there = [&](const char* key) { return !range.value(key, json()).is_null(); };
+    const auto stands_there = [&beside_fixed = range](const char* key) {
+      return !beside_fixed.value(key, json()).is_null();
+    };
     const char* const keys[] = {"min", "max", "guess"};
     const auto* const beside = std::ranges::find_if(keys, stands_there);
     problems.Require(beside == std::end(keys), "parameters." + name + ".fixed",
@@ -36,32 +38,67 @@ void RefuseScaleFactor(const json& root, const GrainSizes& sizes, base::Problems
                    "stands beside scale_factors: give one of the two");
 }
 
-// Whether the experiment is filled with powder.mass.
-bool TakesMass(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all, std::size_t i) {
-  const bool has_own = spec.experiments && (*spec.experiments)[i].mass;
-  return !has_own && !HasFill(all[i]);
-}
+// What is put into the tests, of which each takes one: `all` as ExperimentsOf(spec).
+struct TestFillings {
+  const CampaignSpec& spec;
+  const std::vector<ExperimentSpec>& all;
 
-// A drum is as full as its fill says; the mass is of other tests, where there are any.
-void RefuseMassBesideFill(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all,
-                          base::Problems& problems) {
-  if (spec.powder.mass == 0) return;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (TakesMass(spec, all, i)) return;
+  bool FillIsSearched() const { return spec.parameters && spec.parameters->fill; }
+  bool MassIsSearched() const { return spec.parameters && spec.parameters->mass; }
+  // A drum is as full as its fill says, its own or that of all drums.
+  bool ByFill(const ExperimentSpec& e) const {
+    return HasFill(e) || (IsDrum(e.rig) && FillIsSearched());
   }
-  const auto full = std::ranges::find_if(all, HasFill);
-  if (full == all.end()) return;
-  const auto index = static_cast<std::size_t>(full - all.begin());
-  const bool has_own = spec.experiments && (*spec.experiments)[index].rig;
-  problems.Add((has_own ? "experiments[" + std::to_string(index) + "]." : "") + "rig.fill",
+  bool AllByFill() const {
+    return std::ranges::all_of(all, [&](const ExperimentSpec& e) { return ByFill(e); });
+  }
+  bool HasOwnMass(std::size_t i) const {
+    return spec.experiments && (*spec.experiments)[i].mass.has_value();
+  }
+  std::string Place(std::size_t i) const {
+    return spec.experiments ? "experiments[" + std::to_string(i) + "]." : "";
+  }
+  std::string PlaceOfRig(std::size_t i) const {
+    return (spec.experiments && (*spec.experiments)[i].rig ? Place(i) : "") + "rig.";
+  }
+};
+
+// The mass is of other tests than drums with a fill, where there are any.
+void RefuseMassBesideFill(const TestFillings& filled, base::Problems& problems) {
+  if (filled.MassIsSearched() && filled.AllByFill()) {
+    problems.Add("parameters.mass",
+                 "has no effect: every test is a drum that is as full as its fill says; leave it "
+                 "out, or the fill");
+  }
+  if (filled.spec.powder.mass == 0) return;
+  for (std::size_t i = 0; i < filled.all.size(); ++i) {
+    if (!filled.HasOwnMass(i) && !filled.ByFill(filled.all[i])) return;
+  }
+  const auto full =
+      std::ranges::find_if(filled.all, [&](const ExperimentSpec& e) { return filled.ByFill(e); });
+  if (full == filled.all.end()) return;
+  const auto index = static_cast<std::size_t>(full - filled.all.begin());
+  problems.Add(HasFill(*full) ? filled.PlaceOfRig(index) + "fill" : "parameters.fill",
                "stands beside powder.mass, which no test is filled with: give one of the two");
 }
 
+// A searched fill is that of every drum.
+void RefuseOwnFill(const TestFillings& filled, base::Problems& problems) {
+  if (!filled.FillIsSearched()) return;
+  constexpr const char* kRemedy =
+      "stands beside parameters.fill, which every drum is filled by: keep one of the two";
+  for (std::size_t i = 0; i < filled.all.size(); ++i) {
+    if (!IsDrum(filled.all[i].rig)) continue;
+    problems.Require(!HasFill(filled.all[i]), filled.PlaceOfRig(i) + "fill", kRemedy);
+    problems.Require(!filled.HasOwnMass(i), filled.Place(i) + "mass", kRemedy);
+  }
+}
+
 // A searched mass is that of every test.
-void RefuseOwnMass(const CampaignSpec& spec, base::Problems& problems) {
-  if (!spec.parameters || !spec.parameters->mass || !spec.experiments) return;
-  for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
-    problems.Require(!(*spec.experiments)[i].mass, "experiments[" + std::to_string(i) + "].mass",
+void RefuseOwnMass(const TestFillings& filled, base::Problems& problems) {
+  if (!filled.MassIsSearched()) return;
+  for (std::size_t i = 0; i < filled.all.size(); ++i) {
+    problems.Require(!filled.HasOwnMass(i), filled.Place(i) + "mass",
                      "stands beside parameters.mass, which every test is filled with: keep one of "
                      "the two");
   }
@@ -87,8 +124,10 @@ void RefuseIgnoredKeys(const base::JsonFile& file, const CampaignSpec& spec,
   RefuseScaleFactor(root, spec.coarse_graining, problems);
   if (spec.experiment.has_value() == spec.experiments.has_value()) return;  // that is said already
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
-  RefuseMassBesideFill(spec, all, problems);
-  RefuseOwnMass(spec, problems);
+  const TestFillings filled{spec, all};
+  RefuseMassBesideFill(filled, problems);
+  RefuseOwnFill(filled, problems);
+  RefuseOwnMass(filled, problems);
   RefuseObjective(root, spec, all, problems);
 }
 

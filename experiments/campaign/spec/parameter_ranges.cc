@@ -185,6 +185,15 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
   return base::ParseQuantity(text, DimensionOf(PlaceOf(parameter).property));
 }
 
+std::optional<double> HeldAt(const optimizer::ParameterSpace& space, const rigs::Case& rig_case,
+                             const std::string& parameter) {
+  const auto found = std::ranges::find(space.parameters, parameter, &optimizer::Parameter::name);
+  if (found != space.parameters.end() && found->fixed) return found->fixed;
+  return ParameterOf(rig_case, parameter);
+}
+
+bool IsFactor(const std::string& parameter) { return parameter == "particle_size"; }
+
 bool CanBeMeasuredDirectly(const std::string& parameter) {
   const ParameterPlace place = PlaceOf(parameter);
   return place.body != rigs::kPowder && place.property == "sliding_friction";

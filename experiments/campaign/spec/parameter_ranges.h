@@ -150,6 +150,13 @@ void SetParameter(rigs::Case& rig_case, const std::string& parameter, double val
 // wall without a property of its own has the powder's.
 std::optional<double> ParameterOf(const rigs::Case& rig_case, const std::string& parameter);
 
+// The value that all trials have of one that is not searched: its own `fixed`, else the case's.
+std::optional<double> HeldAt(const optimizer::ParameterSpace& space, const rigs::Case& rig_case,
+                             const std::string& parameter);
+
+// Whether it multiplies what a case has, so that SetParameter acts anew on what it has made.
+bool IsFactor(const std::string& parameter);
+
 // A tilted plate tells the friction between powder and a wall; nothing tells that of two grains.
 bool CanBeMeasuredDirectly(const std::string& parameter);
 

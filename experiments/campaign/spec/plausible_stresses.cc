@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "experiments/campaign/spec/known_number.h"
 #include "experiments/rigs/shear_cell/yield_line.h"
 
@@ -20,7 +20,7 @@ constexpr double kMostRatio = 20;
 constexpr double kLeastRatio = 1 / kMostRatio;
 // A cohesion with its error, over the least normal stress: no cell tells it from none.
 constexpr double kNoCohesion = 5e-3;
-constexpr double kFarOff = std::numbers::pi / 18;  // of two angles, beyond their errors [rad]
+constexpr double kFarOff = 10 * base::kDegree;  // of two angles, beyond their errors [rad]
 
 // A shear stress that is given, with its normal stress.
 struct Sheared {
@@ -122,7 +122,7 @@ void CheckAngle(const ExperimentSpec& e, const std::vector<Sheared>& all, const 
   if (!stated || !line) return;
   const double error = std::hypot(stated->error, line->error);
   const auto degrees = [](double angle) {
-    return base::ShortNumber(180 / std::numbers::pi * angle, 3) + " deg";
+    return base::ShortNumber(angle / base::kDegree, 3) + " deg";
   };
   problems.Require(std::abs(stated->value - line->value) <= kFarOff + kContradiction * error,
                    prefix + "internal_friction_angle",

@@ -66,10 +66,11 @@ void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::str
   const bool is_searched = IsDrum(e.rig) && spec.parameters && spec.parameters->fill;
   problems.Require(!e.mass || !HasFill(e), place + ".mass",
                    "stands beside rig.fill: give one of the two");
-  problems.Require(e.mass || HasFill(e) || is_searched || ShowsDrum(e), "powder.mass",
-                   "is missing or 0, must be positive: give it, or " +
-                       (place.empty() ? "" : place + ".mass, or ") +
-                       "the photographs or rig.fill of a drum");
+  const bool mass_is_searched = spec.parameters && spec.parameters->mass;
+  problems.Require(
+      e.mass || HasFill(e) || is_searched || mass_is_searched || ShowsDrum(e), "powder.mass",
+      "is missing or 0, must be positive: give it, or " +
+          (place.empty() ? "" : place + ".mass, or ") + "the photographs or rig.fill of a drum");
 }
 
 // What the wall's material gives itself, by the names of the properties.

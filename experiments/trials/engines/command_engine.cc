@@ -58,7 +58,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
                       "; is engine.length_unit right?");
   }
   const std::optional<GrainDoubt> doubt = DoubtOfGrains(rig_case, spheres);
-  if (doubt && doubt->is_unit_slip) {
+  if (doubt && doubt->is_certain) {
     throw base::Error("left " + file.filename().string() + " with " + doubt->text);
   }
   const std::vector<base::Sphere> heap = ShownOf(rig_case, spheres);
@@ -66,6 +66,11 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
                       " spheres in " + file.filename().string() +
                       "; are length_unit, up and plate_center right?");
+  }
+  if (const auto wrong = on_plate ? InsidePlate(heap, plate) : std::nullopt) {
+    throw base::Error("left " + file.filename().string() + " with " + *wrong +
+                      "; is engine.plate_center right, and are walls made of particles left out "
+                      "of the file?");
   }
   Measured measured{
       .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
@@ -88,6 +93,21 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   return measured;
 }
 
+// Powder is black on white. Above the powder of every rig but a drum, which is full round, is air.
+void RequireSilhouette(const rigs::Case& rig_case, const imaging::GrayImage& image,
+                       const fs::path& file) {
+  constexpr int kDark = 128;
+  const auto is_dark = [](std::uint8_t value) { return value < kDark; };
+  const auto width = static_cast<std::ptrdiff_t>(image.width);
+  const bool any = std::ranges::any_of(image.pixels, is_dark);
+  const auto in_sky = std::count_if(image.pixels.begin(), image.pixels.begin() + width, is_dark);
+  const bool inverted = rig_case.rig.kind != rigs::RigKind::kDrum && 2 * in_sky > width;
+  if (any && !inverted) return;
+  throw base::Error("left the image " + file.filename().string() +
+                    (any ? " with dark sky" : " without powder") +
+                    "; it must show the powder black on white, the right way up");
+}
+
 Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs::path& folder) {
   Measured measured{.files = {}, .profile = imaging::ReadGrayImage(file)};
   if (!rig_case.frame) {
@@ -102,6 +122,7 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
                       std::to_string(measured.profile.height) + " px; the experiment's is " +
                       std::to_string(frame.width) + " x " + std::to_string(frame.height));
   }
+  RequireSilhouette(rig_case, measured.profile, file);
   base::WriteFileAtomically(folder / rigs::kProfileFile, imaging::EncodePng(measured.profile),
                             Outlives::kProgram);
   return measured;
@@ -137,6 +158,16 @@ fs::path FindMeasurable(const CommandOptions& options, const rigs::Case& rig_cas
   }
 }
 
+// Numbers beside a result in a subfolder would be taken for read.
+void RequireNoneBeside(const CommandOptions& options, const fs::path& folder) {
+  const fs::path place = fs::path(options.result).parent_path();
+  if (place.empty()) return;
+  const fs::path file = ScalarFile(folder / place);
+  if (file.empty()) return;
+  throw base::Error("left " + (place / file.filename()).string() +
+                    ", which is not read there; write it into the trial's own folder");
+}
+
 // What the command left: spheres or an image where there is a frame, numbers, or both. The numbers
 // of a lifted tube's heap follow from its spheres; one that the command gives itself counts.
 Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case,
@@ -150,6 +181,7 @@ Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case
     measured.files.push_back(file);
   }
   if (!given.empty()) measured.files.push_back(ScalarFile(folder));
+  RequireNoneBeside(options, folder);
   for (const journal::MetricRecord& scalar : given) {
     std::erase_if(measured.scalars,
                   [&](const journal::MetricRecord& s) { return s.name == scalar.name; });
@@ -246,6 +278,18 @@ void RequireTaken(const CommandOptions& options, const TemplateFolder& templates
           ", so that searching " + searched.name + " would change nothing");
 }
 
+// Trials at every scale factor would be the same.
+void RequireGrainSize(const CommandOptions& options, const TemplateFolder& templates,
+                      base::Problems& problems) {
+  const std::vector<std::string> names{"scale_factor",     "mean_diameter", "smallest_diameter",
+                                       "largest_diameter", "num_grains",    "grains"};
+  const auto is_used = [&](const std::string& name) { return templates.Uses(options, name); };
+  problems.Require(std::ranges::any_of(names, is_used), "templates",
+                   options.templates->string() + ": no file has one of the placeholders " +
+                       base::Joined(names, ", ") +
+                       ", so that trials at all scale factors would be the same");
+}
+
 // Processor time of all that the command's shell has waited for, by the second line of `times`,
 // "0m6.90s 0m0.10s"; 0 where it is not known [s].
 double CpuTimeOf(const fs::path& mark) {
@@ -303,12 +347,14 @@ bool CommandEngine::IsPrepared(const rigs::Case& rig_case, const fs::path& folde
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   // The mark tells a result that is whole from one that a kill has left half written. What the
   // command took is put into it, where there is room. 127 is the shell's word for a command that is
-  // not there, which ends the campaign; of one that is there it is a failure as any other.
+  // not there, which ends the campaign; of one that is there it is a failure as any other. A signal
+  // that ends the command ends the shell, so that the runner sees who was to blame.
   const std::string mark = rigs::kCommandDone;
   std::vector<std::string> command{
       "/bin/sh", "-c",
       "\"$@\" || { s=$?; [ $s = 127 ] && command -v \"$1\" >/dev/null && "
-      "echo 'status 127: something that the command starts is not found' >&2 && s=1; exit $s; }; "
+      "echo 'status 127: something that the command starts is not found' >&2 && s=1; "
+      "[ $s -gt 128 ] && [ $s -le 192 ] && kill -$((s - 128)) $$; exit $s; }; "
       ": >" +
           mark + " || exit; LC_ALL=C; times >>" + mark + " || :",
       "sh"};
@@ -392,6 +438,7 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
     if (std::ranges::find(stated, searched.name) != stated.end()) continue;
     RequireTaken(options, templates, searched, problems);
   }
+  if (check.has_several_sizes) RequireGrainSize(options, templates, problems);
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

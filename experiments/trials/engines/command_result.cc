@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "experiments/rigs/case/run_files.h"
@@ -17,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Written by ourselves beside a result of another format, for ParaView.
-
 std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& folder) {
   const fs::path pattern = folder / engine.result;
   const std::string name = pattern.filename();
@@ -26,6 +26,8 @@ std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& fold
   std::error_code absent;
   for (const auto& entry : fs::directory_iterator(pattern.parent_path(), absent)) {
     const std::string candidate = entry.path().filename();
+    // LIGGGHTS writes one beside each file of its dump custom/vtk.
+    if (candidate.find("_boundingBox") != std::string::npos) continue;
     if (entry.is_regular_file() && ::fnmatch(name.c_str(), candidate.c_str(), FNM_PERIOD) == 0) {
       matches.push_back(entry.path());
     }
@@ -33,6 +35,42 @@ std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& fold
   std::sort(matches.begin(), matches.end(),
             [](const fs::path& a, const fs::path& b) { return NaturalLess(a, b); });
   return matches;
+}
+
+// The step of the first frame of a dump of LAMMPS or LIGGGHTS; empty of another file.
+std::string FirstStep(const fs::path& file) {
+  constexpr std::string_view kMark = "ITEM: TIMESTEP\n";
+  constexpr std::size_t kHead = 256;
+  std::string head(kHead, '\0');
+  std::ifstream in(file);
+  in.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const std::size_t mark = head.find(kMark);
+  if (mark == std::string::npos) return "";
+  const std::size_t start = mark + kMark.size();
+  return head.substr(start, head.find('\n', start) - start);
+}
+
+// The last by name must be the last of all: not a part of a moment that each process has written
+// its own file of, nor, where names carry decimals, an earlier one.
+void RequireLast(const std::vector<fs::path>& matches) {
+  const fs::path& last = matches.back();
+  const std::string step = FirstStep(last);
+  for (const fs::path& other : matches) {
+    if (other == last) continue;
+    const std::string both =
+        "left " + other.filename().string() + " and " + last.filename().string();
+    if (!step.empty() && FirstStep(other) == step) {
+      throw base::Error(both + ", both of step " + step +
+                        ": parts of it by process? Dump without %, or name engine.result more "
+                        "closely");
+    }
+    if (fs::last_write_time(other) > fs::last_write_time(last)) {
+      throw base::Error(both +
+                        ", the last by name but the older one; name engine.result more "
+                        "closely, or number the files by whole steps");
+    }
+  }
 }
 
 std::string Digits(const std::string& text, std::size_t start) {
@@ -75,7 +113,10 @@ fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const 
   if (matches.size() > 1) {
     std::erase_if(matches, [](const fs::path& path) { return path.filename() == rigs::kHeapFile; });
   }
-  if (!matches.empty()) return matches.back();
+  if (!matches.empty()) {
+    RequireLast(matches);
+    return matches.back();
+  }
   const std::string log = LastLogLines(folder);
   throw base::Error("left no file \"" + engine.result + "\"" +
                     (any ? " that is not older than the trial" : "") +

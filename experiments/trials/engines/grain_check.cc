@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "base/sphere.h"
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "imaging/spheres/coincident.h"
 
 namespace talus::trials {
 namespace {
 
 constexpr double kSizeFactor = 1.5;  // a median of few grains of a wide distribution scatters
 constexpr double kMassFactor = 1.2;
+constexpr double kCoincidentShare = 0.01;
 
 double TotalVolume(std::span<const base::Sphere> spheres) {
   double total = 0;
@@ -58,7 +62,7 @@ std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,
                              base::ShortNumber(expected) +
                              " m at this scale factor: " + TimesText(ratio);
     if (IsUnitSlip(ratio)) {
-      return GrainDoubt{.is_unit_slip = true,
+      return GrainDoubt{.is_certain = true,
                         .text = text +
                                 "; is engine.length_unit right, and each length of the deck "
                                 "in the deck's unit?"};
@@ -66,6 +70,14 @@ std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,
     return GrainDoubt{.text = text +
                               "; does the deck take {{ mean_diameter }}, or the grains' "
                               "own section?"};
+  }
+  const std::size_t coincident = imaging::NumCoincident(spheres);
+  if (static_cast<double>(coincident) > kCoincidentShare * static_cast<double>(spheres.size())) {
+    return GrainDoubt{.is_certain = true,
+                      .text = base::Counted(static_cast<long long>(coincident), "grain") + " of " +
+                              std::to_string(spheres.size()) +
+                              " inside another; does the file hold several moments, or each grain "
+                              "twice?"};
   }
   const double mass = TotalVolume(spheres) * rig_case.powder.material.density;
   if (!(mass > kMassFactor * rig_case.powder.mass)) return std::nullopt;

@@ -60,8 +60,8 @@ TemplateFolder::TemplateFolder(const fs::path& folder) : folder_(folder) {
               .text = std::nullopt};
     num_bytes += file.bytes.size();
     if (files_.size() >= kMostFiles) {
-      throw base::ConfigError(folder.string() +
-                              ": holds more than 10000 files; name a folder of templates alone");
+      throw base::ConfigError(folder.string() + ": holds more than " + std::to_string(kMostFiles) +
+                              " files; name a folder of templates alone");
     }
     if (file.bytes.find('\0') == std::string::npos && file.bytes.find("{{") != std::string::npos) {
       file.text.emplace(file.bytes, entry.path().string());

@@ -1,6 +1,7 @@
 #include "experiments/trials/engines/template_text.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -69,13 +70,15 @@ void TextTemplate::AddTag(std::string_view inner, int line) {
 
 void TextTemplate::DropLinesOfLoneTags() {
   // Parts alternate: text, tag, text, …, text.
+  bool begins_line = true;  // the text before the tag, also where a dropped line stood before that
   for (std::size_t i = 1; i + 1 < parts_.size(); i += 2) {
+    const bool before_begins_line = std::exchange(begins_line, false);
     if (parts_[i].kind != Kind::kOpen && parts_[i].kind != Kind::kClose) continue;
     std::string& before = parts_[i - 1].text;
     std::string& after = parts_[i + 1].text;
     const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 = 0
     const std::size_t line_end = after.find('\n');
-    const bool first_of_line = line_start > 0 || i == 1;
+    const bool first_of_line = line_start > 0 || before_begins_line;
     if (!first_of_line ||
         !base::Trimmed(std::string_view(before).substr(line_start), kBlank).empty() ||
         line_end == std::string::npos ||
@@ -84,6 +87,7 @@ void TextTemplate::DropLinesOfLoneTags() {
     }
     before.resize(line_start);
     after.erase(0, line_end + 1);
+    begins_line = true;
   }
 }
 

@@ -29,6 +29,21 @@ void KeepTimes(const std::filesystem::path& from, const std::filesystem::path& t
   }
 }
 
+// What Open MPI says between dashes after the words of a process that failed: only that it did.
+void DropLaunchersWords(std::string& text) {
+  const std::string rule(60, '-');
+  for (auto at = text.find(rule); at != std::string::npos; at = text.find(rule, at + 1)) {
+    const auto words = text.find_first_not_of("-\n", at);
+    if (at == 0 || words == std::string::npos) return;
+    const std::string_view said = std::string_view(text).substr(words);
+    if (said.starts_with("Primary job") || said.starts_with("mpirun ") ||
+        said.starts_with("MPI_ABORT was invoked")) {
+      text.erase(at);
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
@@ -59,7 +74,8 @@ void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& 
 std::string LastLogLines(const std::filesystem::path& folder) {
   constexpr std::size_t kMostBytes = 600;
   constexpr int kMostLines = 3;
-  std::string text = base::ReadTail(folder / rigs::kLogFile, 4 * kMostBytes);
+  std::string text = base::ReadTail(folder / rigs::kLogFile, 8 * kMostBytes);
+  DropLaunchersWords(text);
   text.erase(text.find_last_not_of(" \n\r\t") + 1);
   std::size_t start = text.size();
   for (int line = 0; line < kMostLines && start != std::string::npos; ++line) {

@@ -61,6 +61,11 @@ Projected Project(const fs::path& file, const imaging::Frame& frame,
                             " spheres stands on the plate; the plate's centre must be the origin, "
                             "its top z = 0, up +z, and lengths in metres or as --length-unit says");
   }
+  if (const auto wrong = InsidePlate(heap, frame.plate_diameter)) {
+    throw base::ConfigError(file.string() + ": has " + *wrong +
+                            "; the plate's top must be z = 0, and walls made of particles left "
+                            "out");
+  }
   Projected projected{.heap = {}, .num_spheres = all.size(), .num_in_heap = heap.size()};
   projected.heap.parts = imaging::ProjectViews(heap, frame, request.num_views);
   projected.heap.profile = imaging::ProjectHeap(heap, frame, request.num_views);

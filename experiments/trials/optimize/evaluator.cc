@@ -2,13 +2,13 @@
 
 #include <cctype>
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "experiments/runners/exit_status.h"
 #include "experiments/runners/process_guard.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/optimize/optimize_result_json.h"
@@ -37,11 +37,9 @@ std::string Ending(std::string text) {
 }
 
 std::string FailureOf(const runners::ToolResult& result) {
-  const int signal = result.status - 128;
+  const std::optional<int> signal = runners::SignalOf(result.status);
   const std::string end =
-      signal > 0 && signal < NSIG
-          ? "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")"
-          : "exit status " + std::to_string(result.status);
+      signal ? runners::SignalText(*signal) : "exit status " + std::to_string(result.status);
   const std::string said = Ending(result.errors);
   return end + (said.empty() ? "" : ": " + said);
 }

@@ -202,6 +202,15 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   EXPECT_NE(moved.filling.kind, typical.filling.kind);
   EXPECT_EQ(MoveTo(view, typical, "mass", "0.6 g").from, "0.0005 kg");
   EXPECT_EQ(MoveTo(view, typical, "particle_size", "1.1").from, "1");
+  // One that is fixed at 1.2 has made the case's grains larger by that already.
+  JointView larger = view;
+  larger.space.parameters.push_back({.name = "particle_size", .fixed = 1.2});
+  rigs::Case grains = typical;
+  campaign::SetParameter(grains, "particle_size", 1.2);
+  const analysis::Move size = MoveTo(larger, grains, "particle_size", "1.5");
+  EXPECT_EQ(size.from, "1.2");
+  size.apply(grains);
+  EXPECT_NEAR(*grains.powder.sizes.diameter, 1.5 * *typical.powder.sizes.diameter, 1e-15);
   EXPECT_THAT(ErrorOf(view, "rolling_friction", "0.2"), HasSubstr("is searched"));
   EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
   EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));

@@ -100,6 +100,14 @@ TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
   EXPECT_EQ(TrialTable(folder), table);
 }
 
+// Every case says that it is 1, and the trials with larger grains were told as such.
+TEST_F(AddedParameters, AFixedFactorIsWhereItWasFixed) {
+  const auto folder = Finished(std::string(kHeaps) +
+                               R"(, "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
+        "rolling_friction": {"min": 0.05, "max": 0.5}, "particle_size": {"fixed": 1.2}})");
+  EXPECT_THAT(ErrorOf(folder, "particle_size=0.8..1.1"), HasSubstr("the range must hold 1.2"));
+}
+
 // A grid of one parameter's levels could not go on with two, and a local search stayed where it was
 // in the new one.
 TEST_F(AddedParameters, AreForCampaignsThatLookAtTheNewRange) {

@@ -12,6 +12,7 @@
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/status.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
@@ -111,6 +112,22 @@ TEST_F(HoldingOut, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
       ConsiderSet(folder, {{"sliding_friction", "0.45"}, {"rolling_friction", "0.2"}}));
   EXPECT_THAT(considered, HasSubstr("heap: predicted"));
   EXPECT_EQ(considered.find("fast lift:"), std::string::npos);  // but for trials near the set
+}
+
+// It was asked for its design again and again, and the budget ended without an answer.
+TEST_F(HoldingOut, ATestWhoseTrialsAllFailEndsTheSearchUntilItIsMended) {
+  const auto folder = Begin("failing", "23 mg", 40, {.hold_out = "fast lift"});
+  RunFake(folder, {.fail_fast = true});
+  EXPECT_FALSE(std::filesystem::exists(folder / "result.json"));
+  const std::string status = StatusText(folder);
+  EXPECT_THAT(status, HasSubstr("the first 8 trials of \"fast lift\" all failed"));
+  EXPECT_THAT(status, HasSubstr("ended without a result; mend the cause, and `talus resume"));
+  RunFake(folder, {});
+  EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Trials().size(),
+            44u);  // none twice: 40, and two confirmations by each test
+  const Answer answer = ParseAnswer(base::ReadFile(folder / "result.json"));
+  EXPECT_EQ(answer.stop.kind, StopKind::kSimulations);
+  EXPECT_FALSE(answer.held_out.value().numbers.empty());
 }
 
 TEST_F(HoldingOut, WhatCannotBeHeldOutIsSaid) {

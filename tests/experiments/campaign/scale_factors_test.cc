@@ -198,5 +198,31 @@ TEST(Estimate, WarnsOfABudgetThatEndsBeforeTheFinestTrials) {
   EXPECT_TRUE(warnings(least).empty());
 }
 
+// Three of each test by two sets are twelve, and were counted as those of two tests of two tests.
+TEST(Estimate, ConfirmsEachSetByEveryTestOnce) {
+  const auto estimate = [](const char* confirm) {
+    const CampaignSpec spec = Read(std::string(R"("coarse_graining": {"scale_factor": 4},
+        "budget": {"simulations": 2}, "workers": 1, )") +
+                                   confirm);
+    return std::pair(spec, EstimateCampaign(spec));
+  };
+  const auto [spec, confirms] = estimate(
+      R"("confirm": {"candidates": 2, "replicates": 3, "ends": false, "scale_factor": 2})");
+  const auto [bare, none] = estimate(R"("confirm": {"candidates": 0})");
+  ASSERT_EQ(confirms.confirming.size(), 1u);
+  EXPECT_EQ(confirms.num_trials, 2 + 6);
+  EXPECT_TRUE(none.confirming.empty());
+  const double search = 2 * confirms.trials[0].core_seconds;
+  EXPECT_NEAR(confirms.campaign_time - confirms.proposal_time,
+              search + 6 * confirms.confirming[0].core_seconds, 1e-9 * search);
+  // They are the longest, and would meet the cap that those of the search do not.
+  CampaignSpec capped = spec;
+  capped.trial_time_cap =
+      (confirms.trials[0].core_seconds + confirms.confirming[0].core_seconds) / 2;
+  ASSERT_EQ(EstimateWarnings(capped, confirms).size(), 1u);
+  EXPECT_THAT(EstimateWarnings(capped, confirms).front(),
+              HasSubstr("at scale factor 2: a trial takes about"));
+}
+
 }  // namespace scale_factors_test
 }  // namespace talus::campaign

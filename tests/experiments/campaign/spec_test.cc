@@ -107,6 +107,43 @@ TEST(Spec, ADensityIsHeldToTheHeaviestGrainsThatAreSearched) {
   EXPECT_EQ(ErrorOf(with(R"(, "density": {"min": 2400, "max": 5000})")), "");
 }
 
+TEST(Spec, WhatFillsADrumIsGivenOnce) {
+  const auto with = [](const char* rig, const char* of_test, const char* parameters) {
+    return std::string(R"({
+      "experiments": [{"name": "drum", "angle": {"value": "33 deg", "sd": "1 deg"},
+                       "rig": {"kind": "drum", "diameter": "40 mm", "width": "8 mm",
+                               "speed": "15 rpm")") +
+           rig + "}" + of_test + R"(}],
+      "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "2 mm"}},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5})" +
+           parameters + "}}";
+  };
+  constexpr const char* kFill = R"(, "fill": {"min": 0.3, "max": 0.4})";
+  EXPECT_EQ(ErrorOf(with("", "", kFill)), "");
+  EXPECT_EQ(ErrorOf(with("", "", R"(, "mass": {"min": "4 g", "max": "6 g"})")), "");
+  EXPECT_THAT(ErrorOf(with(R"(, "fill": 0.3)", "", kFill)),
+              HasSubstr("experiments[0].rig.fill: stands beside parameters.fill"));
+  EXPECT_THAT(ErrorOf(with("", R"(, "mass": "5 g")", kFill)),
+              HasSubstr("experiments[0].mass: stands beside parameters.fill"));
+  EXPECT_THAT(ErrorOf(with(R"(, "fill": 0.3)", "", R"(, "mass": {"min": "4 g", "max": "6 g"})")),
+              HasSubstr("parameters.mass: has no effect: every test is a drum"));
+}
+
+TEST(Spec, WhatTheContactLawsDoNotAskForIsNotSearched) {
+  const auto with = [](const std::string& rolling, const std::string& parameter) {
+    std::string text = With(R"("parameters": {"sliding_friction": {"min": 0.1, "max": 0.5}, ")" +
+                            parameter + R"(": {"min": 0.1, "max": 0.2}})");
+    const std::string dmt = R"({"adhesion": "dmt"})";
+    return text.replace(text.find(dmt), dmt.size(), R"({"rolling": ")" + rolling + R"("})");
+  };
+  EXPECT_THAT(
+      ErrorOf(with("constant", "rolling_damping")),
+      HasSubstr("parameters.rolling_damping: has no effect but with models.rolling \"epsd\""));
+  EXPECT_THAT(ErrorOf(with("none", "plate_pair_rolling_friction")),
+              HasSubstr("parameters.plate_pair_rolling_friction: has no effect without a rolling"));
+  EXPECT_EQ(ErrorOf(with("epsd", "rolling_damping")), "");
+}
+
 TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   const CampaignSpec spec = Read(With(R"("device": {"plate_material": {"restitution": 0.4}},
     "parameters": {

@@ -171,7 +171,8 @@ TEST_F(CommandEngineTest, ANumberThatTheCommandGivesCounts) {
 TEST_F(CommandEngineTest, OwnImageIsTakenAsTheProfile) {
   Deck("run.sh", "cp prepared.png profile.png\n");
   imaging::GrayImage image{.width = 40, .height = 30, .pixels = {}};
-  image.pixels.assign(1200, 77);
+  image.pixels.assign(1200, 255);
+  std::fill(image.pixels.begin() + 600, image.pixels.end(), 77);
   imaging::WritePng(root_ / "deck/prepared.png", image);
   options_.result = "profile.png";
   EXPECT_EQ(Run().profile, image);
@@ -320,7 +321,7 @@ TEST_F(CommandEngineTest, ChangedTemplatesAreRefused) {
 
 TEST_F(CommandEngineTest, LastResultInNaturalOrderCounts) {
   Deck("run.sh",
-       "mkdir post; for i in 9 10 8; do printf 'x,y,z,r\\n0,0,%se-4,1e-3\\n' $i >post/heap_$i.csv; "
+       "mkdir post; for i in 8 9 10; do printf 'x,y,z,r\\n0,0,%se-4,1e-3\\n' $i >post/heap_$i.csv; "
        "done\n");
   options_.result = "post/heap_*.csv";
   Run();

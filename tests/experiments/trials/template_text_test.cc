@@ -49,6 +49,13 @@ TEST(TextTemplate, SectionIsRepeatedForEachRow) {
   EXPECT_EQ(Fill("[{{#grains}}({{x}}){{/grains}}]"), "[(1)(3)]");
 }
 
+// The second section's rows began with an empty line, which no reader of data expects.
+TEST(TextTemplate, SectionsMayFollowOneAnother) {
+  EXPECT_EQ(
+      Fill("{{# grains }}\na {{ x }}\n{{/ grains }}\n{{# grains }}\nb {{ x }}\n{{/ grains }}\n"),
+      "a 1\na 3\nb 1\nb 3\n");
+}
+
 TEST(TextTemplate, UsedNamesAreListed) {
   EXPECT_THAT(TextTemplate("{{ b }} {{# t }}{{ a }}{{/ t }} {{ b }}", "deck").Names(),
               ElementsAre("a", "b", "t"));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <numbers>
 #include <span>
 
 #include "base/text/markup.h"
@@ -108,7 +109,7 @@ double Share(const SvgAxis& axis, double value) {
 std::string StarPath(double x, double y, double radius) {
   std::string path;
   for (int k = 0; k < 10; ++k) {
-    const double angle = -M_PI / 2 + k * M_PI / 5;
+    const double angle = (k / 5.0 - 0.5) * std::numbers::pi;
     const double r = k % 2 == 0 ? radius : 0.4 * radius;
     path += (k == 0 ? "M" : "L") + Pixel(x + r * std::cos(angle)) + " " +
             Pixel(y + r * std::sin(angle));
