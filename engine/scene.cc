@@ -137,7 +137,7 @@ double TimeStep(const Scene& scene) {
 }
 
 void Scene::Validate(base::Problems& problems) const {
-  const std::size_t before = problems.list().size();
+  const std::size_t before = problems.size();
   problems.Require(!materials.empty(), "materials", "needs at least one");
   problems.Within("models", [&] { models.Validate(problems); });
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -150,7 +150,7 @@ void Scene::Validate(base::Problems& problems) const {
   ValidatePairs(*this, problems);
   ValidateStep(*this, problems);
   ValidateParticles(*this, problems);
-  if (problems.list().size() != before) return;
+  if (problems.size() != before) return;
   ValidateSpeeds(*this, problems);
   ValidateOverlaps(*this, problems);
 }

@@ -232,12 +232,13 @@ void FillRegion::Validate(base::Problems& problems) const {
 }
 
 void FillRequest::Validate(std::span<const double> radii, base::Problems& problems) const {
+  const std::size_t before = problems.size();
   problems.Within("region", [&] { region.Validate(problems); });
   problems.Require(solid_fraction > 0 && solid_fraction <= 0.6, "solid_fraction", solid_fraction,
                    "must be in (0, 0.6]");
   problems.RequirePositive("max_overlap", max_overlap);
   problems.Require(max_sweeps > 0, "max_sweeps", max_sweeps, "must be positive");
-  if (!problems.empty()) return;
+  if (problems.size() > before) return;
   const double narrowest = region.Narrowest();
   const double room = std::min(narrowest, region.height.value_or(narrowest));
   const double most = room / 2 * (1 + 1e-9);  // drawn radii are rounded

@@ -9,17 +9,26 @@
 namespace talus::engine {
 namespace {
 
-// The solver knows of particles; in the file they are spheres, in order, and then those of fills.
+// The solver knows of particles; in the file they are spheres, in order, then those of
+// sphere_files, and then those of fills.
 constexpr std::string_view kParticles = "particles[";
 
-std::string SphereInFile(const std::string& index, std::size_t num_spheres) {
-  return std::stoul(index) < num_spheres ? "spheres[" + index + "]" : "a sphere of a fill";
+struct NumSpheres {
+  std::size_t stated = 0;
+  std::size_t with_files = 0;
+};
+
+std::string SphereInFile(const std::string& index, const NumSpheres& num) {
+  const std::size_t i = std::stoul(index);
+  if (i < num.stated) return "spheres[" + index + "]";
+  return i < num.with_files ? "a sphere of sphere_files" : "a sphere of a fill";
 }
 
-std::string PathInFile(const std::string& path, std::size_t num_spheres) {
+std::string PathInFile(const std::string& path, const NumSpheres& num) {
   if (!path.starts_with(kParticles)) return path;
   const std::size_t index = std::stoul(path.substr(kParticles.size()));
-  if (index >= num_spheres) return "fills";
+  if (index >= num.with_files) return "fills";
+  if (index >= num.stated) return "sphere_files";
   std::string in_file = "spheres[" + path.substr(kParticles.size());
   constexpr std::string_view kRadius = ".radius";
   if (in_file.ends_with(kRadius)) {
@@ -28,15 +37,17 @@ std::string PathInFile(const std::string& path, std::size_t num_spheres) {
   return in_file;
 }
 
-base::Problem InFile(base::Problem problem, std::size_t num_spheres) {
+base::Problem InFile(base::Problem problem, const NumSpheres& num) {
   std::string& message = problem.message;
   if (const auto at = message.find(kParticles); at != std::string::npos) {
     const auto end = message.find(']', at);
     const auto first = at + kParticles.size();
-    message.replace(at, end + 1 - at,
-                    SphereInFile(message.substr(first, end - first), num_spheres));
+    message.replace(at, end + 1 - at, SphereInFile(message.substr(first, end - first), num));
   }
-  problem.path = PathInFile(problem.path, num_spheres);
+  problem.path = PathInFile(problem.path, num);
+  if (problem.path == "sphere_files") {
+    return {.path = problem.path, .message = "one of their spheres " + problem.Text()};
+  }
   if (problem.path != "fills") return problem;
   return {.path = problem.path,
           .message = "a sphere " + problem.Text() +
@@ -53,6 +64,7 @@ LoadedScene LoadScene(base::JsonFile file) {
   const std::filesystem::path path = file.path;
   LoadedScene loaded{.spec = base::LoadOptions<SceneSpec>(file), .scene = {}};
   file.root = nullptr;  // a million spheres take a gigabyte
+  const std::size_t num_stated = loaded.spec.spheres.size();
   for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
   for (PourSpec& pour : loaded.spec.pours) ReadSizeFile(pour.sizes);
   base::Problems problems(path.string(), file.places);
@@ -78,7 +90,8 @@ LoadedScene LoadScene(base::JsonFile file) {
   loaded.scene.Validate(found);
   constexpr std::size_t kMost = 50;  // overlapping spheres may be many
   for (std::size_t i = 0; i < std::min(kMost, found.list().size()); ++i) {
-    problems.Add(InFile(found.list()[i], loaded.spec.spheres.size()));
+    problems.Add(
+        InFile(found.list()[i], {.stated = num_stated, .with_files = loaded.spec.spheres.size()}));
   }
   if (found.size() > kMost) {
     problems.Add("", std::to_string(found.size() - kMost) + " more problems like these");

@@ -269,15 +269,47 @@ bool DomainSpec::Contains(const Vec3& point) const {
          point.z >= low.z && point.z <= high.z;
 }
 
-void SceneSpec::Validate(base::Problems& problems) const {
+namespace {
+
+void ValidateMaterials(const SceneSpec& spec, base::Problems& problems) {
   constexpr std::size_t kMostMaterials = 100;  // each pair of them has its constants
-  problems.Require(!materials.empty() && materials.size() <= kMostMaterials, "materials",
+  problems.Require(!spec.materials.empty() && spec.materials.size() <= kMostMaterials, "materials",
                    "must have 1 to 100 entries");
-  for (std::size_t i = 0; i < std::min(materials.size(), kMostMaterials); ++i) {
-    const int first = MaterialIndex(*this, materials[i].name);
-    problems.Require(first == static_cast<int>(i) && !materials[i].name.empty(),
+  for (std::size_t i = 0; i < std::min(spec.materials.size(), kMostMaterials); ++i) {
+    const int first = MaterialIndex(spec, spec.materials[i].name);
+    problems.Require(first == static_cast<int>(i) && !spec.materials[i].name.empty(),
                      "materials[" + std::to_string(i) + "].name", "must be given once, not empty");
   }
+}
+
+void ValidatePours(const SceneSpec& spec, base::Problems& problems) {
+  for (std::size_t i = 0; i < spec.pours.size(); ++i) {
+    const std::string pour = "pours[" + std::to_string(i) + "]";
+    problems.Require(!spec.domain || spec.domain->Contains(spec.pours[i].mouth), pour + ".mouth",
+                     "is outside the domain");
+    problems.Require(!spec.stop.time || spec.pours[i].start < *spec.stop.time, pour + ".start",
+                     spec.pours[i].start, "must be before stop.time, or nothing is poured");
+  }
+}
+
+void ValidateTaps(const SceneSpec& spec, base::Problems& problems) {
+  for (std::size_t i = 0; i < spec.walls.size(); ++i) {
+    if (!spec.walls[i].taps || !(spec.walls[i].taps->height > 0)) continue;
+    const std::string taps = "walls[" + std::to_string(i) + "].taps";
+    problems.Require(Norm(spec.gravity) > 0, taps, "need gravity, by which the wall falls");
+    if (!(Norm(spec.gravity) > 0)) break;
+    const double least =
+        TapDuration({.height = spec.walls[i].taps->height, .gravity = spec.gravity});
+    problems.Require(
+        !(spec.walls[i].taps->interval <= least), taps + ".interval", spec.walls[i].taps->interval,
+        "must be above the time of a lift and a fall, " + base::ShortNumber(least) + " s");
+  }
+}
+
+}  // namespace
+
+void SceneSpec::Validate(base::Problems& problems) const {
+  ValidateMaterials(*this, problems);
   ValidatePairs(*this, problems);
   ValidateColumns(*this, problems);
   RequireMaterials(*this, spheres, "spheres", problems);
@@ -295,23 +327,8 @@ void SceneSpec::Validate(base::Problems& problems) const {
     problems.Require(domain->Contains(spheres[i].position),
                      "spheres[" + std::to_string(i) + "].position", "is outside the domain");
   }
-  for (std::size_t i = 0; i < pours.size(); ++i) {
-    const std::string pour = "pours[" + std::to_string(i) + "]";
-    problems.Require(!domain || domain->Contains(pours[i].mouth), pour + ".mouth",
-                     "is outside the domain");
-    problems.Require(!stop.time || pours[i].start < *stop.time, pour + ".start", pours[i].start,
-                     "must be before stop.time, or nothing is poured");
-  }
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (!walls[i].taps || !(walls[i].taps->height > 0)) continue;
-    const std::string taps = "walls[" + std::to_string(i) + "].taps";
-    problems.Require(Norm(gravity) > 0, taps, "need gravity, by which the wall falls");
-    if (!(Norm(gravity) > 0)) break;
-    const double least = TapDuration({.height = walls[i].taps->height, .gravity = gravity});
-    problems.Require(
-        !(walls[i].taps->interval <= least), taps + ".interval", walls[i].taps->interval,
-        "must be above the time of a lift and a fall, " + base::ShortNumber(least) + " s");
-  }
+  ValidatePours(*this, problems);
+  ValidateTaps(*this, problems);
   problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
   problems.Require(!stop.energy_fraction || Norm(gravity) > 0, "stop.energy_fraction",
                    "compares the energy with m g d, which is 0 without gravity; end by time or "

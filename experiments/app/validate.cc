@@ -171,8 +171,8 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';
   }
-  if (const auto warning = campaign::NoSeedWarning(spec)) {
-    std::cout << "  warning: " << *warning << '\n';
+  for (const std::string& warning : campaign::DeckWarnings(spec)) {
+    std::cout << "  warning: " << warning << '\n';
   }
   const double finest = spec.coarse_graining.Finest();
   for (std::size_t e = 0; e < experiments.size(); ++e) {

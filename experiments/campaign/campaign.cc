@@ -77,7 +77,7 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   TakeUpRunning();
   CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
-  if (const auto warning = NoSeedWarning(spec_)) console_.Line("warning: " + *warning);
+  for (const std::string& warning : DeckWarnings(spec_)) console_.Line("warning: " + warning);
   bool announced = false;
   while (true) {
     const base::Interrupt asked = interrupt.Asked();

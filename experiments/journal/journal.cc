@@ -249,7 +249,7 @@ void Journal::Reopen(std::span<const TrialRecord> trials) {
     database_
         .Prepare(
             "UPDATE trials SET status = 'running', reason = '', job = '', finish_order = 0, "
-            "finished_utc = '' WHERE id = ?1 AND status = 'failed'")
+            "finished_utc = '' WHERE id = ?1 AND finish_order > 0")
         .Bind(t.id)
         .Finish();
     database_.Prepare("DELETE FROM metrics WHERE trial = ?1").Bind(t.id).Finish();

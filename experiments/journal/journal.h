@@ -59,7 +59,7 @@ class Journal {
              base::Outlives outlives = base::Outlives::kPowerCut);
   // Running trials get another seed, attempt or job name; with what they have taken so far.
   void Restart(std::span<const TrialRecord> trials);
-  // Failed trials are as if they had never ended.
+  // Ended trials are as if they had never ended.
   void Reopen(std::span<const TrialRecord> trials);
   // How long a running trial took, that has ended and waits for its turn to be told.
   void NoteEnd(const TrialRecord& trial);

@@ -160,6 +160,16 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
   if (problems.empty() && c.filling.kind == FillingKind::kPour) ValidatePour(c, vessel, problems);
 }
 
+// How far a column runs out, about: twice its height. 0 of other rigs, and of what is no column.
+double Runout(const Case& c) {
+  constexpr double kSolidFraction = 0.55;
+  if (c.rig.kind != RigKind::kColumnCollapse) return 0;
+  const ColumnCollapseOptions& o = c.rig.column_collapse;
+  const double height =
+      c.powder.mass / (c.powder.material.density * kSolidFraction * o.length * o.width);
+  return std::isfinite(height) && height > 0 ? 2 * height : 0;
+}
+
 // A picture as wide as the rig's, with a margin, for a camera that was given none.
 imaging::Frame UsualFrame(const Case& c) {
   constexpr int kPixels = 480;
@@ -167,7 +177,7 @@ imaging::Frame UsualFrame(const Case& c) {
   const double width = EntryOf(c).width(c);
   return {.width = kPixels,
           .height = kPixels,
-          .pixel_size = kMargin * width / kPixels,
+          .pixel_size = kMargin * (width + 2 * Runout(c)) / kPixels,
           .center_x = kPixels / 2.0,
           .baseline = kPixels * (1 + 1 / kMargin) / 2,
           .plate_diameter = width};

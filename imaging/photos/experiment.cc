@@ -180,6 +180,33 @@ void FilmedPicture::Validate(base::Problems& problems) const {
                    "needs exactly one of \"photos\", \"runs\" and \"map\"");
 }
 
+namespace {
+
+// A map has no photographs, and photographs need no number of heaps.
+void RefuseKeysOfOtherSources(const ExperimentOptions& e, base::Problems& problems) {
+  const auto is_of_map = [](const FilmedPicture& picture) { return !picture.map.empty(); };
+  const bool is_map = !e.map.empty() || (e.film && std::ranges::all_of(*e.film, is_of_map));
+  problems.Require(e.map_heaps == 1 || is_map, "map_heaps", e.map_heaps,
+                   "is of a map; photographs tell their heaps by their names");
+  problems.Require(e.pattern.empty() || !is_map, "pattern",
+                   "is of the photographs in a folder, not of a map: remove it");
+  problems.Require(e.powder == PowderLook::kAuto || !is_map, "powder",
+                   "is of photographs: in a map black means powder");
+  problems.Require(!e.allow_missing_views || !is_map, "allow_missing_views",
+                   "is of photographs, not of a map: remove it");
+}
+
+void ValidateRuns(const std::vector<PhotoRun>& runs, base::Problems& problems) {
+  std::set<std::string> names;
+  for (const PhotoRun& run : runs) {
+    problems.Require(!run.photos.empty(), "runs", "run \"" + run.name + "\" has no photographs");
+    problems.Require(names.insert(run.name).second, "runs",
+                     "run \"" + run.name + "\" stands there twice: give each heap its own name");
+  }
+}
+
+}  // namespace
+
 void ExperimentOptions::Validate(base::Problems& problems) const {
   const int sources = !photos.empty() + !runs.empty() + !map.empty() + film.has_value();
   problems.Require(sources == 1, "",
@@ -193,14 +220,7 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(
       !frame || std::abs(frame->plate_diameter - plate_diameter) <= 1e-6 * frame->plate_diameter,
       "plate_diameter", plate_diameter, "is another than that of \"frame\"; they are of one plate");
-  problems.Require(map_heaps == 1 || !map.empty(), "map_heaps", map_heaps,
-                   "is of a map; photographs tell their heaps by their names");
-  problems.Require(pattern.empty() || map.empty(), "pattern",
-                   "is of the photographs in a folder, not of a map: remove it");
-  problems.Require(powder == PowderLook::kAuto || map.empty(), "powder",
-                   "is of photographs: in a map black means powder");
-  problems.Require(!allow_missing_views || map.empty(), "allow_missing_views",
-                   "is of photographs, not of a map: remove it");
+  RefuseKeysOfOtherSources(*this, problems);
   problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
@@ -224,12 +244,7 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   } catch (const base::ConfigError& error) {
     problems.Add("scale", error.what());
   }
-  std::set<std::string> names;
-  for (const PhotoRun& run : runs) {
-    problems.Require(!run.photos.empty(), "runs", "run \"" + run.name + "\" has no photographs");
-    problems.Require(names.insert(run.name).second, "runs",
-                     "run \"" + run.name + "\" stands there twice: give each heap its own name");
-  }
+  ValidateRuns(runs, problems);
 }
 
 HeapImages Experiment::Images() const { return {.profile = aehp, .parts = RunImages(*this)}; }

@@ -7,6 +7,8 @@
 #include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/photograph_file.h"
 #include "imaging/light/backlight.h"
+#include "imaging/one_thread.h"
+#include "imaging/photos/photo_from_frame.h"
 #include "imaging/photos/silhouette.h"
 
 namespace talus::imaging {
@@ -103,15 +105,11 @@ GrayImage PhotoInFrame(const GrayImage& photo, const PlatePose& plate, double ph
   const cv::Mat source(photo.height, photo.width, CV_8U,
                        const_cast<std::uint8_t*>(photo.pixels.data()));
   cv::Mat target(frame.height, frame.width, CV_8U, image.pixels.data());
-  const double scale = frame.pixel_size / photo_pixel;
-  const double c = scale * std::cos(plate.tilt);
-  const double s = scale * std::sin(plate.tilt);
-  const double x = 0.5 - frame.center_x;  // from pixel indices: centres lie half a pixel on
-  const double y = 0.5 - frame.baseline;
-  const cv::Matx23d photo_from_frame(c, -s, plate.center_x + c * x - s * y - 0.5, s, c,
-                                     plate.baseline + s * x + c * y - 0.5);
-  cv::warpAffine(source, target, photo_from_frame, {frame.width, frame.height},
-                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, cv::Scalar(255));
+  KeepToOneThread();
+  cv::warpAffine(source, target,
+                 cv::Matx23d(PhotoFromFrame(plate, frame.pixel_size / photo_pixel, frame).data()),
+                 {frame.width, frame.height}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_CONSTANT, cv::Scalar(255));
   return image;
 }
 

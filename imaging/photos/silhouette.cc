@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "imaging/one_thread.h"
+#include "imaging/photos/photo_from_frame.h"
 
 namespace talus::imaging {
 namespace {
@@ -18,16 +19,6 @@ constexpr double kBesidePlate = 0.02;  // how far beside the plate powder counts
 constexpr double kGrainHeight = 1.0 / 3;
 constexpr double kGrainArea = 0.05;
 
-// From pixel indices of the frame to pixel indices of the photograph (OpenCV counts from pixel
-// centres, hence the halves).
-cv::Matx23d PhotoFromFrame(const PlatePose& plate, double scale, const Frame& frame) {
-  const double c = scale * std::cos(plate.tilt);
-  const double s = scale * std::sin(plate.tilt);
-  const double x = 0.5 - frame.center_x;
-  const double y = 0.5 - frame.baseline;
-  return {c, -s, plate.center_x + c * x - s * y - 0.5, s, c, plate.baseline + s * x + c * y - 0.5};
-}
-
 cv::Mat Resample(const BacklitPhoto& photo, const PlatePose& plate, double scale,
                  const Frame& frame) {
   KeepToOneThread();
@@ -39,8 +30,9 @@ cv::Mat Resample(const BacklitPhoto& photo, const PlatePose& plate, double scale
     source = smooth;
   }
   cv::Mat target;
-  cv::warpAffine(source, target, PhotoFromFrame(plate, scale, frame), {frame.width, frame.height},
-                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, cv::Scalar(1));
+  cv::warpAffine(source, target, cv::Matx23d(PhotoFromFrame(plate, scale, frame).data()),
+                 {frame.width, frame.height}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_CONSTANT, cv::Scalar(1));
   return target;
 }
 
@@ -156,7 +148,7 @@ GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, doub
 bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const PlatePose& plate,
                    double photo_pixel, const Frame& frame) {
   const double scale = frame.pixel_size / photo_pixel;
-  const cv::Matx23d to_photo = PhotoFromFrame(plate, scale, frame);
+  const cv::Matx23d to_photo(PhotoFromFrame(plate, scale, frame).data());
   const double near = std::max(1.0, scale);  // of the border [px]
   for (int y = 0; y < silhouette.height; ++y) {
     for (int x = 0; x < silhouette.width; ++x) {

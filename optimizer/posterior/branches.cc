@@ -83,12 +83,16 @@ PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::MatrixXd& 
           .high = members.colwise().maxCoeff()};
 }
 
-}  // namespace
+// Draws that lie in the region; where none does, the densest.
+struct Draws {
+  Eigen::MatrixXd points;   // one a row
+  Eigen::VectorXd density;  // its logarithm
+};
 
-std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
-                                          const PosteriorSample& sample, std::uint64_t seed) {
-  Eigen::MatrixXd draws = sample.Draws(kDrawsApart, seed);
-  Eigen::VectorXd density = posterior.LogDensity(draws);
+Draws InsideRegion(const AskedDensity& posterior, const PosteriorSample& sample,
+                   std::uint64_t seed) {
+  const Eigen::MatrixXd draws = sample.Draws(kDrawsApart, seed);
+  const Eigen::VectorXd density = posterior.LogDensity(draws);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
     if (density[i] >= sample.region_log_density - kRounding) inside.push_back(i);
@@ -97,14 +101,16 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
     inside.emplace_back();
     density.maxCoeff(&inside.front());
   }
-  draws = Eigen::MatrixXd(draws(inside, Eigen::all));
-  const Eigen::MatrixXd places = draws(Eigen::all, posterior.asked());
-  density = Eigen::VectorXd(density(inside));
-  Components components(inside.size());
+  return {.points = draws(inside, Eigen::all), .density = density(inside)};
+}
+
+// Which of them the region joins, by ways that lie in it. With many parameters few draws have a
+// neighbour within reach. What is left apart then is tried further, a pair of each two parts: a way
+// that leaves the region between all others proves little.
+Components JoinedWithin(double region_log_density, const AskedDensity& posterior,
+                        const Draws& draws, const Eigen::MatrixXd& places) {
+  Components components(static_cast<std::size_t>(draws.points.rows()));
   int tries = 0;
-  // With many parameters few draws have a neighbour within reach. What is left apart then is tried
-  // further, a pair of each two parts: a way that leaves the region between all others proves
-  // little.
   std::map<std::pair<std::size_t, std::size_t>, int> tried;
   for (const Pair& pair : PairsByDistance(places)) {
     std::size_t a = components.Root(pair.a);
@@ -113,19 +119,29 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
     if (a > b) std::swap(a, b);
     if (pair.distance >= kReach && ++tried[{a, b}] > kTriesFar) continue;
     if (++tries > kMostTries) break;
-    if (IsJoined(posterior, draws, pair, sample.region_log_density)) components.Join(a, b);
+    if (IsJoined(posterior, draws.points, pair, region_log_density)) components.Join(a, b);
   }
+  return components;
+}
+
+}  // namespace
+
+std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
+                                          const PosteriorSample& sample, std::uint64_t seed) {
+  const Draws draws = InsideRegion(posterior, sample, seed);
+  const Eigen::MatrixXd places = draws.points(Eigen::all, posterior.asked());
+  Components components = JoinedWithin(sample.region_log_density, posterior, draws, places);
   std::map<std::size_t, std::vector<Eigen::Index>> members;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    members[components.Root(i)].push_back(static_cast<Eigen::Index>(i));
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    members[components.Root(static_cast<std::size_t>(i))].push_back(i);
   }
   std::vector<PosteriorBranch> branches;
   const auto size = [](const auto& part) { return part.second.size(); };
   const std::size_t largest = size(*std::ranges::max_element(members, {}, size));
   for (const auto& part : members) {
     const std::vector<Eigen::Index>& rows = part.second;
-    PosteriorBranch branch =
-        Describe(draws(rows, Eigen::all), places(rows, Eigen::all), density(rows), draws.rows());
+    PosteriorBranch branch = Describe(draws.points(rows, Eigen::all), places(rows, Eigen::all),
+                                      draws.density(rows), places.rows());
     if (branch.share < kLeastShare && size(part) < largest) continue;
     branch.point = posterior.WithTypicalNuisances(branch.point);
     branches.push_back(std::move(branch));

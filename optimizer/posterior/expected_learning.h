@@ -20,7 +20,7 @@ struct PredictedMeasurement {
 struct ExpectedLearning {
   double bits = 0;  // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
   // Each parameter's 90 % range (AskedRanges) afterwards, unit cube: the mean over the sets that
-  // may be true, and what a tenth of these leave less of, and a tenth more.
+  // may be true, and its 10 and 90 % quantiles over them.
   Eigen::VectorXd width;
   Eigen::VectorXd narrow{};
   Eigen::VectorXd wide{};

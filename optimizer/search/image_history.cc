@@ -82,8 +82,8 @@ double ImageHistory::ErrorOfValues(const CodedImages& data, bool deterministic) 
 void ImageHistory::Choose(int count, bool deterministic) {
   choice_ = {.num_fitted = count, .deterministic = deterministic, .state = {}};
   verdict_.clear();
-  double lowest = ErrorOfValues(First(codes_.front(), count), deterministic);
   const CodedImages data = First(codes_.front(), count);
+  double lowest = ErrorOfValues(data, deterministic);
   const double sd = Rms(data.values.array() - data.values.mean());
   if (!(sd > 0)) {
     verdict_ = "all values are the same so far";

@@ -12,7 +12,7 @@ namespace {
 constexpr int kNumDraws = 512;
 
 // Draws whose squares have mean 1, so that no minimiser's mean moves on average.
-Eigen::MatrixXd Standardised(Eigen::MatrixXd normals) {
+Eigen::MatrixXd WithUnitSquares(Eigen::MatrixXd normals) {
   const auto num_draws = static_cast<double>(normals.rows());
   normals.array().rowwise() /= (normals.colwise().squaredNorm() / num_draws).array().sqrt();
   return normals;
@@ -34,7 +34,7 @@ ImageKnowledge::ImageKnowledge(const ImageModel& model, const Eigen::MatrixXd& m
                         Eigen::VectorXd::Zero(minimisers.rows())});
   }
   const auto num_sources = static_cast<Eigen::Index>(sources_.size());
-  const Eigen::MatrixXd normals = Standardised(
+  const Eigen::MatrixXd normals = WithUnitSquares(
       MirroredNormals(kNumDraws, num_sources, base::Random(1, base::Stream("field knowledge"))));
   draws_.resize(2 * num_sources, kNumDraws);
   draws_.topRows(num_sources) = normals.transpose();

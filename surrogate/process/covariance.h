@@ -13,8 +13,8 @@
 //   cov d₁ = cov d₂ = u² (1 + p/2 + ρ(q/λ²));   e^(-a g) leaves c² as it is
 //
 // A noisy linear autoregressive model [kennedy2000] with coefficient e^(-a g), written as one
-// process with the scale factor as input, so that designs need not be nested. A large a says that
-// coarse evaluations tell nothing of the target. d₂ vanishes at the target and at the coarsest
+// process with the scale factor as input, so that designs need not be nested. With a large a coarse
+// evaluations carry no information on the target. d₂ vanishes at the target and at the coarsest
 // scale factor: it says how far the growth may be from linear.
 //
 // ℓ correlation lengths [-], s signal, t trend, u discrepancy, c constant: standard deviations in

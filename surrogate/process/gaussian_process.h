@@ -111,7 +111,6 @@ class GaussianProcess {
   double LogLikelihood() const;                // of the values, in their own units
   double LogPosterior() const;  // with the prior of the hyper-parameters, where they were fitted
   const GaussianProcessState& state() const { return state_; }
-  Eigen::Index dimension() const { return data_.sites.columns.rows(); }
   Eigen::Index num_points() const { return data_.size(); }      // distinct
   const Eigen::VectorXi& first() const { return data_.first; }  // evaluation of each, from 0
   Eigen::VectorXd values() const;                               // means over replicates

@@ -48,8 +48,8 @@ struct HyperPriors {
   LogNormal discrepancy{.median = 0.3, .log_sd = 0.7};
   // One a scale factor. A tenth of the spread, or anything from a thirtieth to a third.
   std::vector<LogNormal> noise = {{.median = 0.1, .log_sd = 1}};
-  // Strengths of the input warping are normal about none; 1 stretches one end e times as much as
-  // the other.
+  // Strengths of the input warping have a normal prior of mean 0; 1 stretches one end e times as
+  // much as the other.
   double warp_sd = 1;
   // A coarse output follows the target's, or has lost some of it: e^-1 at one standard deviation.
   // Normal about 0, so it may as well amplify it.

@@ -291,37 +291,6 @@ TEST(ExperimentTest, WithoutAPatternTheOneThatFitsIsTakenAndSaid) {
   EXPECT_TRUE(MeasureExperiment(named).warnings.empty());
 }
 
-TEST(ExperimentOptionsTest, BrokenRulesAreReportedTogether) {
-  ExperimentOptions options;
-  options.map = "a.png";
-  options.photos = "b";
-  options.plate_diameter = -1;
-  options.threshold = 1.5;
-  base::Problems problems;
-  options.Validate(problems);
-  EXPECT_EQ(problems.list().size(), 3u);
-}
-
-// 0.5 was taken for half a degree, and turned the photographs by 28.6.
-TEST(ExperimentOptionsTest, ATiltInRadThatIsMeantInDegreesIsRefused) {
-  ExperimentOptions options;
-  options.photos = "photos";
-  options.frame = Frame{.pixel_size = 1e-5};
-  options.plate_diameter = options.frame->plate_diameter;
-  const auto problems_of = [&](double tilt) {
-    options.tilt = tilt;
-    base::Problems problems;
-    options.Validate(problems);
-    return problems.list();
-  };
-  EXPECT_THAT(problems_of(-0.17), testing::IsEmpty());  // 9.7 degrees
-  const std::vector<base::Problem> list = problems_of(0.5);
-  ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].path, "tilt");
-  EXPECT_THAT(list[0].Text(), HasSubstr("is 0.5, in rad, which is 28.65 degrees"));
-  EXPECT_THAT(list[0].message, HasSubstr("if 0.5 degrees are meant, write \"0.5 deg\""));
-}
-
 // The frame that was found, given by hand with the tilt, leads to the same profile: both rest on
 // the same photographs, so only the found tilt's error of a few thousandths of a degree is left.
 TEST(Experiment, FrameCanBeGivenInsteadOfFound) {

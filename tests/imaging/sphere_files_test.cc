@@ -110,6 +110,13 @@ TEST_F(SphereFilesTest, DumpInItsOwnUnitsAndScaledToItsBoxIsReadInMetres) {
   EXPECT_NEAR(spheres[0].position.y, -2e-3, 1e-17);
   EXPECT_DOUBLE_EQ(spheres[0].radius, 5e-4);
   EXPECT_NEAR(Read(dump, {.length_unit = 1}).at(0).position.z, 0.3, 1e-15);
+  // Both kinds of coordinates: those that need no box.
+  EXPECT_EQ(
+      Read("ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n"
+           "0 1\nITEM: ATOMS x y z xs ys zs radius\n0.1 0.2 0.3 0.7 0.8 0.9 0.01\n")
+          .at(0)
+          .position,
+      (base::Vec3{0.1, 0.2, 0.3}));
 }
 
 TEST_F(SphereFilesTest, VtkLegacyOfLiggghtsPostProcessorIsRead) {

@@ -86,6 +86,15 @@ class ForeignCampaign(unittest.TestCase):
         self.assertIn("run again", said)
         self.assertIn("failed            0\n", self.talus("status", folder / "run"))
 
+    def test_a_deck_whose_numbers_have_no_value_is_mended_too(self):
+        empty = '# {{ sliding_friction }} {{ rolling_friction }}\necho "tapped_density_kg_per_m3," >scalars.csv\n'
+        folder = self.write(empty, experiment=TAPPED)
+        self.calibrate(folder, status=1)
+        self.assertIn('none of the first 8 trials defines "tapped_density_kg_per_m3"', self.talus("status", folder / "run"))
+        self.write(NUMBERS, experiment=TAPPED)
+        self.assertIn("told nothing: run again", self.talus("resume", folder / "run"))
+        self.assertTrue((folder / "run/result.json").exists())
+
     def test_card_and_answer_are_of_the_deck(self):
         folder = self.write(CONE)
         said = self.calibrate(folder)

@@ -347,6 +347,51 @@ void RequireOtherFolders(const std::vector<fs::path>& folders) {
   }
 }
 
+std::vector<BatchParameter> ParametersOf(const std::vector<Batch>& batches,
+                                         const std::vector<double>& counts) {
+  std::vector<BatchParameter> parameters;
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    const journal::ParameterRecord& record = batches.front().view.record.parameters[p];
+    BatchParameter parameter{.name = record.name, .unit = record.unit, .scale = record.scale};
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      parameter.batches.push_back(RangeOf(Column(batches[b], p)));
+      if (b == 0) continue;
+      parameter.differences.push_back(DifferenceOf(batches.front(), batches[b], p, counts[p]));
+    }
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+// What was measured of each batch beside that of the first, and all parameters at once.
+void AddMeasured(const std::vector<Batch>& batches, BatchComparison& comparison) {
+  const Batch& first = batches.front();
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    comparison.together.push_back(TogetherOf(first, batches[b]));
+    for (std::size_t e = 0; e < first.view.record.experiments.size(); ++e) {
+      CompareNumbers(first, batches[b], e, comparison.numbers);
+      if (!first.view.references[e].has_image()) continue;
+      comparison.pictures.push_back(ComparePictures(first, batches[b], e));
+    }
+  }
+}
+
+// What follows from all of that, and what it is to be read with.
+void AddVerdicts(const std::vector<Batch>& batches, BatchComparison& comparison) {
+  const auto warn = [&](const std::vector<std::string>& more) {
+    comparison.warnings.insert(comparison.warnings.end(), more.begin(), more.end());
+  };
+  const JointView& first = batches.front().view;
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    comparison.verdicts.push_back(VerdictOf(comparison, b));
+    if (const std::string engine = OtherEngine(first, batches[b].view); !engine.empty()) {
+      comparison.other_engines.push_back(engine);
+    }
+    warn(OtherConditions(first, batches[b].view));
+  }
+  for (const Batch& batch : batches) warn(AlarmsOf(batch.view));
+}
+
 }  // namespace
 
 BatchComparison CompareBatches(const std::vector<fs::path>& folders,
@@ -363,36 +408,9 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
   for (std::size_t b = 0; b < batches.size(); ++b) {
     batches[b].draws = DrawsOf(batches[b].view, b);
   }
-  for (std::size_t p = 0; p < counts.size(); ++p) {
-    const journal::ParameterRecord& record = batches.front().view.record.parameters[p];
-    BatchParameter parameter{.name = record.name, .unit = record.unit, .scale = record.scale};
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-      parameter.batches.push_back(RangeOf(Column(batches[b], p)));
-      if (b == 0) continue;
-      parameter.differences.push_back(DifferenceOf(batches.front(), batches[b], p, counts[p]));
-    }
-    comparison.parameters.push_back(std::move(parameter));
-  }
-  for (std::size_t b = 1; b < batches.size(); ++b) {
-    comparison.together.push_back(TogetherOf(batches.front(), batches[b]));
-    for (std::size_t e = 0; e < batches.front().view.record.experiments.size(); ++e) {
-      CompareNumbers(batches.front(), batches[b], e, comparison.numbers);
-      if (!batches.front().view.references[e].has_image()) continue;
-      comparison.pictures.push_back(ComparePictures(batches.front(), batches[b], e));
-    }
-  }
-  const auto warn = [&](const std::vector<std::string>& more) {
-    comparison.warnings.insert(comparison.warnings.end(), more.begin(), more.end());
-  };
-  for (std::size_t b = 1; b < batches.size(); ++b) {
-    comparison.verdicts.push_back(VerdictOf(comparison, b));
-    const JointView& first = batches.front().view;
-    if (const std::string engine = OtherEngine(first, batches[b].view); !engine.empty()) {
-      comparison.other_engines.push_back(engine);
-    }
-    warn(OtherConditions(first, batches[b].view));
-  }
-  for (const Batch& batch : batches) warn(AlarmsOf(batch.view));
+  comparison.parameters = ParametersOf(batches, counts);
+  AddMeasured(batches, comparison);
+  AddVerdicts(batches, comparison);
   return comparison;
 }
 

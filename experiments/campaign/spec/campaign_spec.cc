@@ -76,7 +76,6 @@ void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
     trials::CheckCommand(spec.engine.command,
                          {.rig_case = rig_case,
                           .searched = searched,
-                          .has_several_sizes = spec.coarse_graining.Levels().size() > 1,
                           .elsewhere = spec.runner.kind != RunnerKind::kLocal},
                          problems);
   });

@@ -101,15 +101,28 @@ void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems) {
   }
 }
 
-std::optional<std::string> NoSeedWarning(const CampaignSpec& spec) {
-  if (spec.engine.kind != EngineKind::kCommand) return std::nullopt;
+std::vector<std::string> DeckWarnings(const CampaignSpec& spec) {
+  if (spec.engine.kind != EngineKind::kCommand) return {};
+  if (!std::filesystem::is_directory(*spec.engine.command.templates)) return {};
   const trials::TemplateFolder templates(*spec.engine.command.templates);
-  for (const char* name : {"seed", "prime_seed", "grains"}) {
-    if (templates.Uses(spec.engine.command, name)) return std::nullopt;
+  const auto takes_none = [&](const std::vector<std::string>& names) {
+    return std::ranges::none_of(
+        names, [&](const std::string& name) { return templates.Uses(spec.engine.command, name); });
+  };
+  std::vector<std::string> warnings;
+  if (takes_none({"seed", "prime_seed", "grains"})) {
+    warnings.emplace_back(
+        "the engine's templates take no {{ seed }}, {{ prime_seed }} or {{# grains }}: unless the "
+        "deck draws its own, repeated and confirming trials are one run again, and the noise is "
+        "taken to be none");
   }
-  return "the engine's templates take no {{ seed }}, {{ prime_seed }} or {{# grains }}: unless the "
-         "deck draws its own, repeated and confirming trials are one run again, and the noise is "
-         "taken to be none";
+  const std::vector<std::string> sizes{"scale_factor",     "mean_diameter", "smallest_diameter",
+                                       "largest_diameter", "num_grains",    "grains"};
+  if (spec.coarse_graining.Levels().size() > 1 && takes_none(sizes)) {
+    warnings.push_back("the engine's templates take none of " + base::Joined(sizes, ", ") +
+                       ": trials at all scale factors are the same");
+  }
+  return warnings;
 }
 
 }  // namespace talus::campaign

@@ -2,8 +2,8 @@
 // placeholders tell it, and what they do not tell is the same for all.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/problems.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -15,7 +15,8 @@ namespace talus::campaign {
 void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems);
 
 // What is to be said of a deck that takes no seed, nor grains in place: repeated trials may be one
-// run again. Nothing where it does, or where the engine is ours.
-std::optional<std::string> NoSeedWarning(const CampaignSpec& spec);
+// run again; and of one that takes no grain size for several scale factors. None where the engine
+// is ours.
+std::vector<std::string> DeckWarnings(const CampaignSpec& spec);
 
 }  // namespace talus::campaign

@@ -178,7 +178,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string place = spec.experiments ? "experiments[" + std::to_string(i) + "]" : "";
     CheckMass(spec, all[i], place, problems);
-    ValidateDrumImages(all[i], place, problems);
+    ValidateDrumImages(all[i], place.empty() ? "experiment" : place, problems);
     ValidateNeeds(all[i], ScalarsOf(all[i]), place, problems);
   }
   const bool has_drum =

@@ -15,6 +15,21 @@ constexpr double kFollowed = 0.5;  // solid fraction that the mouth rises with
 // 0.7 of it the stream drives soft grains through the plate (docs/validation.md, Filling).
 constexpr double kMouth = 0.6;
 
+// The diameter of a mouth out of which grains up to this diameter are poured.
+double MouthFor(double largest, const Case& c, const Vessel& vessel) {
+  if (vessel.funnel) return vessel.funnel->outlet;
+  // Not so narrow that grains come down in a file.
+  const double least = std::min(4 * largest, 0.9 * vessel.across);
+  return c.filling.mouth_diameter.value_or(std::max(kMouth * vessel.across, least));
+}
+
+// What true grains run out with: coarse ones may need a wider mouth, and no other rate.
+double UsualRate(engine::PourPlan plan, const Case& c, const Vessel& vessel) {
+  const double f = c.coarse_graining.scale_factor;
+  plan.mouth_diameter = MouthFor(LargestDiameter(c) / f, c, vessel);
+  return engine::BeverlooRate(plan, f);
+}
+
 }  // namespace
 
 std::vector<double> DrawRadii(const Case& c) {
@@ -44,21 +59,6 @@ double Headroom(const Case& c, const Vessel& vessel, const std::optional<TapRule
 
 double FallHeight(const Case& c, const Vessel& vessel, const engine::Pour& pour) {
   return DropHeight(c, vessel) + pour.slab() + vessel.region.base.z - vessel.Floor();
-}
-
-// The diameter of a mouth out of which grains up to this diameter are poured.
-double MouthFor(double largest, const Case& c, const Vessel& vessel) {
-  if (vessel.funnel) return vessel.funnel->outlet;
-  // Not so narrow that grains come down in a file.
-  const double least = std::min(4 * largest, 0.9 * vessel.across);
-  return c.filling.mouth_diameter.value_or(std::max(kMouth * vessel.across, least));
-}
-
-// What true grains run out with: coarse ones may need a wider mouth, and no other rate.
-double UsualRate(engine::PourPlan plan, const Case& c, const Vessel& vessel) {
-  const double f = c.coarse_graining.scale_factor;
-  plan.mouth_diameter = MouthFor(LargestDiameter(c) / f, c, vessel);
-  return engine::BeverlooRate(plan, f);
 }
 
 double MouthDiameter(const Case& c, const Vessel& vessel) {

@@ -62,9 +62,10 @@ struct CameraOptions {
   }
   void Validate(base::Problems& problems) const {
     problems.RequireFromTo("frames", frames, 1, kMostFrames);
-    problems.Require((interval > 0 && std::isfinite(interval)) || (frames == 1 && interval == 0),
-                     "interval", interval,
+    problems.Require(frames == 1 || (interval > 0 && std::isfinite(interval)), "interval", interval,
                      "must be given and positive: pictures at one time are one picture");
+    problems.Require(frames != 1 || interval == 0, "interval", interval,
+                     "is between several pictures: give frames, or leave it out");
     ValidateTimes(problems);
     problems.Require(start >= 0 && std::isfinite(start), "start", start, "must not be negative");
     problems.Require(closing >= 0 && std::isfinite(closing), "closing", closing,

@@ -15,12 +15,6 @@ constexpr double kPixelsPerGrain = 5;
 constexpr int kMostPixels = 2000;  // across
 constexpr double kLowest = 1.5;    // grains: a layer of single ones has no slope
 
-double TopOf(std::span<const engine::Particle> heap) {
-  double top = 0;
-  for (const engine::Particle& p : heap) top = std::max(top, p.position.z + p.radius);
-  return top;
-}
-
 // The whole plate and as much above it as the heap is high, with a margin.
 imaging::Frame FrameOf(double top, const RoundPlate& plate) {
   constexpr double kMargin = 0.1;  // of the plate's diameter, on each side

@@ -17,6 +17,7 @@
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rig_entry.h"
+#include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
 #include "experiments/rigs/shear_cell/yield_line.h"
@@ -32,7 +33,9 @@ constexpr double kVaneHeight = 1.5;  // largest grains
 constexpr double kVaneBegin = 0.3;   // of the radius: nearer to the axis they would stand too close
 constexpr double kTravel = 20;       // mean diameters
 constexpr double kSteadyFrom = 0.5;  // of the travel
-constexpr double kLeastHeight = 7;   // largest grains: vanes above and below, and what shears
+constexpr const char* kNotLookedAt =
+    "no look fell into the second half of the travel; raise rig.travel or lower rig.speed";
+constexpr double kLeastHeight = 7;  // largest grains: vanes above and below, and what shears
 // The shear zone is some five grains high: with it I = γ̇ d √(ρ/σ) = (v/5) √(ρ/σ) is the inertial
 // number, below which a powder's friction hardly depends on the speed.
 constexpr double kShearZone = 5;
@@ -207,14 +210,17 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
   }
 
   std::vector<Reading> Readings(GrainSpan) const override {
-    const std::vector<StressPoint> points = Points();
+    const std::vector<double>& stresses = rig_case().rig.shear_cell.stresses;
+    std::vector<StressPoint> points;
     std::vector<Reading> all;
     for (std::size_t i = 0; i < std::size(kStresses); ++i) {
       all.push_back({kStresses[i]});
-      if (i < points.size()) {
-        all.back().value = points[i].shear;
+      const auto mean = i < stresses.size() ? MeanStress(i, kSteadyFrom, 1) : std::nullopt;
+      if (mean) {
+        all.back().value = *mean;
+        points.push_back({.normal = stresses[i], .shear = *mean});
       } else {
-        all.back().undefined = "the rig has no such stress";
+        all.back().undefined = i < stresses.size() ? kNotLookedAt : "the rig has no such stress";
       }
     }
     Reading angle{Observable::kFrictionAngle};
@@ -223,7 +229,8 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
       angle.value = SlopeAngle(line->slope);
       cohesion.value = line->cohesion;
     } else {
-      angle.undefined = cohesion.undefined = "one normal stress gives no line";
+      angle.undefined = cohesion.undefined =
+          stresses.size() > 1 ? kNotLookedAt : "one normal stress gives no line";
     }
     all.push_back(angle);
     all.push_back(cohesion);
@@ -234,13 +241,18 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     constexpr double kSteady = 0.1;  // change from the third to the fourth quarter of the travel
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < rig_case().rig.shear_cell.stresses.size(); ++i) {
-      const double before = MeanStress(i, kSteadyFrom, 0.75).value_or(0);
-      const double after = MeanStress(i, 0.75, 1).value_or(0);
-      if (std::abs(after - before) <= kSteady * std::abs(before + after) / 2) continue;
-      warnings.push_back("the shear stress under " +
-                         base::ShortNumber(rig_case().rig.shear_cell.stresses[i]) +
-                         " Pa was not steady: " + base::ShortNumber(before) + " Pa, then " +
-                         base::ShortNumber(after) + " Pa; raise rig.travel");
+      const std::string under = "the shear stress under " +
+                                base::ShortNumber(rig_case().rig.shear_cell.stresses[i]) +
+                                " Pa was ";
+      const auto before = MeanStress(i, kSteadyFrom, 0.75);
+      const auto after = MeanStress(i, 0.75, 1);
+      if (!before || !after) {
+        warnings.push_back(under + "looked at too seldom: " + kNotLookedAt);
+        continue;
+      }
+      if (std::abs(*after - *before) <= kSteady * std::abs(*before + *after) / 2) continue;
+      warnings.push_back(under + "not steady: " + base::ShortNumber(*before) + " Pa, then " +
+                         base::ShortNumber(*after) + " Pa; raise rig.travel");
     }
     return warnings;
   }
@@ -254,13 +266,11 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     return vessel.region.base.z + height + mouth + VaneHeight(c);
   }
 
-  // brings the lid down to the powder
-  // As fast as it would fall. The side is made smooth with it.
+  // Brings the lid down to the powder, as fast as it would fall, and makes the side smooth.
   void Close() {
     const auto& lid = std::get<engine::Disc>(scene().Walls()[kLid].shape);
-    double top = 0;
-    for (const engine::Particle& p : view().particles) top = std::max(top, p.position.z + p.radius);
-    const double way = std::max(0.0, lid.center.z - VaneHeight(rig_case()) - top);
+    const double way =
+        std::max(0.0, lid.center.z - VaneHeight(rig_case()) - TopOf(view().particles));
     const double time = std::sqrt(2 * way / rig_case().gravity);
     memory().closing_time = time;
     if (way > 0) {
@@ -277,9 +287,8 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     scene().SetMaterial(kWalls, side);
   }
 
-  // presses, and turns on
-  // The lid is as heavy as the powder, and damped as a weight on the powder's stiffness is that
-  // just does not swing: c = 2 √(k m), k = A dσ/dε/h.
+  // Presses with the next stress; the lid turns on. It is as heavy as the powder, and damped as a
+  // weight on the powder's stiffness is that just does not swing: c = 2 √(k m), k = A dσ/dε/h.
   void Shear(std::size_t stress) {
     const Case& c = rig_case();
     const double normal = c.rig.shear_cell.stresses[stress];
@@ -297,7 +306,7 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     ForLidWalls([&](int wall) { scene().SetMotion(wall, {turning}); });
   }
 
-  // [Pa]
+  // From the torque on the lid and its vanes [Pa].
   double ShearStressNow() const {
     const std::vector<engine::WallLoad> loads = simulation().WallLoads();
     double torque = 0;
@@ -318,17 +327,6 @@ class ShearCellRig : public RememberingRig<ShearCellMemory> {
     }
     if (count == 0) return std::nullopt;
     return sum / count;
-  }
-
-  std::vector<StressPoint> Points() const {
-    const std::vector<double>& stresses = rig_case().rig.shear_cell.stresses;
-    std::vector<StressPoint> points;
-    for (std::size_t i = 0; i < stresses.size(); ++i) {
-      if (const auto mean = MeanStress(i, kSteadyFrom, 1)) {
-        points.push_back({.normal = stresses[i], .shear = *mean});
-      }
-    }
-    return points;
   }
 };
 

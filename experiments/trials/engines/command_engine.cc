@@ -58,7 +58,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
                       "; is engine.length_unit right?");
   }
   const std::optional<GrainDoubt> doubt = DoubtOfGrains(rig_case, spheres);
-  if (doubt && doubt->is_certain) {
+  if (doubt && doubt->is_unit_slip) {
     throw base::Error("left " + file.filename().string() + " with " + doubt->text);
   }
   const std::vector<base::Sphere> heap = ShownOf(rig_case, spheres);
@@ -67,14 +67,15 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
                       " spheres in " + file.filename().string() +
                       "; are length_unit, up and plate_center right?");
   }
-  if (const auto wrong = on_plate ? InsidePlate(heap, plate) : std::nullopt) {
-    throw base::Error("left " + file.filename().string() + " with " + *wrong +
-                      "; is engine.plate_center right, and are walls made of particles left out "
-                      "of the file?");
-  }
   Measured measured{
       .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
-  if (doubt) measured.doubt = file.filename().string() + " has " + doubt->text;
+  const auto inside = on_plate ? InsidePlate(heap, plate) : std::nullopt;
+  if (doubt) {
+    measured.doubt = file.filename().string() + " has " + doubt->text;
+  } else if (inside) {
+    measured.doubt = file.filename().string() + " has " + *inside +
+                     "; is engine.plate_center right, and are walls made of particles left out?";
+  }
   if (rig_case.frame) {
     if (const int num = rigs::ProfileFrameOf(rig_case).num_pictures(); num > 1) {
       throw base::Error("left spheres, which show one moment of the run; leave an image of its " +
@@ -93,19 +94,19 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   return measured;
 }
 
-// Powder is black on white. Above the powder of every rig but a drum, which is full round, is air.
-void RequireSilhouette(const rigs::Case& rig_case, const imaging::GrayImage& image,
-                       const fs::path& file) {
+// What is doubtful about a silhouette; empty if nothing is. Powder is black on white, and above
+// that of every rig but a drum, which is full round, is air.
+std::string DoubtOfImage(const rigs::Case& rig_case, const imaging::GrayImage& image,
+                         const fs::path& file) {
   constexpr int kDark = 128;
   const auto is_dark = [](std::uint8_t value) { return value < kDark; };
   const auto width = static_cast<std::ptrdiff_t>(image.width);
   const bool any = std::ranges::any_of(image.pixels, is_dark);
   const auto in_sky = std::count_if(image.pixels.begin(), image.pixels.begin() + width, is_dark);
   const bool inverted = rig_case.rig.kind != rigs::RigKind::kDrum && 2 * in_sky > width;
-  if (any && !inverted) return;
-  throw base::Error("left the image " + file.filename().string() +
-                    (any ? " with dark sky" : " without powder") +
-                    "; it must show the powder black on white, the right way up");
+  if (any && !inverted) return "";
+  return file.filename().string() + (any ? " has a dark sky" : " shows no powder") +
+         "; it must show the powder black on white, the right way up";
 }
 
 Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs::path& folder) {
@@ -122,7 +123,7 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
                       std::to_string(measured.profile.height) + " px; the experiment's is " +
                       std::to_string(frame.width) + " x " + std::to_string(frame.height));
   }
-  RequireSilhouette(rig_case, measured.profile, file);
+  measured.doubt = DoubtOfImage(rig_case, measured.profile, file);
   base::WriteFileAtomically(folder / rigs::kProfileFile, imaging::EncodePng(measured.profile),
                             Outlives::kProgram);
   return measured;
@@ -278,18 +279,6 @@ void RequireTaken(const CommandOptions& options, const TemplateFolder& templates
           ", so that searching " + searched.name + " would change nothing");
 }
 
-// Trials at every scale factor would be the same.
-void RequireGrainSize(const CommandOptions& options, const TemplateFolder& templates,
-                      base::Problems& problems) {
-  const std::vector<std::string> names{"scale_factor",     "mean_diameter", "smallest_diameter",
-                                       "largest_diameter", "num_grains",    "grains"};
-  const auto is_used = [&](const std::string& name) { return templates.Uses(options, name); };
-  problems.Require(std::ranges::any_of(names, is_used), "templates",
-                   options.templates->string() + ": no file has one of the placeholders " +
-                       base::Joined(names, ", ") +
-                       ", so that trials at all scale factors would be the same");
-}
-
 // Processor time of all that the command's shell has waited for, by the second line of `times`,
 // "0m6.90s 0m0.10s"; 0 where it is not known [s].
 double CpuTimeOf(const fs::path& mark) {
@@ -438,7 +427,6 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
     if (std::ranges::find(stated, searched.name) != stated.end()) continue;
     RequireTaken(options, templates, searched, problems);
   }
-  if (check.has_several_sizes) RequireGrainSize(options, templates, problems);
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

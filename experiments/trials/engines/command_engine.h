@@ -53,7 +53,6 @@ struct SearchedParameter {
 struct CommandCheck {
   const rigs::Case& rig_case;  // any of the campaign
   std::vector<SearchedParameter> searched;
-  bool has_several_sizes = false;  // trials at more than one scale factor
   bool elsewhere = false;
 };
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,

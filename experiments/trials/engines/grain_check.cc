@@ -62,7 +62,7 @@ std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,
                              base::ShortNumber(expected) +
                              " m at this scale factor: " + TimesText(ratio);
     if (IsUnitSlip(ratio)) {
-      return GrainDoubt{.is_certain = true,
+      return GrainDoubt{.is_unit_slip = true,
                         .text = text +
                                 "; is engine.length_unit right, and each length of the deck "
                                 "in the deck's unit?"};
@@ -73,8 +73,7 @@ std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,
   }
   const std::size_t coincident = imaging::NumCoincident(spheres);
   if (static_cast<double>(coincident) > kCoincidentShare * static_cast<double>(spheres.size())) {
-    return GrainDoubt{.is_certain = true,
-                      .text = base::Counted(static_cast<long long>(coincident), "grain") + " of " +
+    return GrainDoubt{.text = base::Counted(static_cast<long long>(coincident), "grain") + " of " +
                               std::to_string(spheres.size()) +
                               " inside another; does the file hold several moments, or each grain "
                               "twice?"};

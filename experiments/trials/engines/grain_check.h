@@ -12,7 +12,7 @@
 namespace talus::trials {
 
 struct GrainDoubt {
-  bool is_certain = false;  // nobody means that: the result must not be taken
+  bool is_unit_slip = false;  // 10, 100 or 1000 times too large or too small: nobody means that
   std::string text;
 };
 

@@ -1,4 +1,5 @@
 // Text dumps of LIGGGHTS and LAMMPS (dump custom, write_dump): frames of `ITEM:` sections.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -117,15 +118,18 @@ std::array<std::optional<std::size_t>, 3> ScaledColumns(DumpFrame& frame, const 
   std::array<std::optional<std::size_t>, 3> scaled;
   constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string plain(kAxes[axis]);
+    const auto is_plain = [&](const std::string& name) {
+      return name == plain || name == plain + "u";
+    };
+    if (std::ranges::any_of(frame.names, is_plain)) continue;  // stated twice
     for (std::size_t c = 0; c < frame.names.size(); ++c) {
       std::string& name = frame.names[c];
-      if (name != std::string(kAxes[axis]) + "s" && name != std::string(kAxes[axis]) + "su") {
-        continue;
-      }
+      if (name != plain + "s" && name != plain + "su") continue;
       if (frame.triclinic) {
         throw base::ConfigError(file + ": has scaled coordinates in a tilted box; dump x y z");
       }
-      name = kAxes[axis];
+      name = plain;
       scaled[axis] = c;
     }
   }

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/text/byte_order_mark.h"
 #include "imaging/formats/spheres/sphere_formats.h"
 #include "imaging/formats/spheres/text_cursor.h"
 
@@ -49,8 +50,7 @@ struct Head {
 
 // "x,y,z,r", "# x y z r" (numpy) or "#format x_y_z_r" (YADE, whose rows are parted by tabs).
 Head ReadHead(TextCursor& cursor) {
-  std::string_view line = Trimmed(cursor.Line());
-  if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
+  std::string_view line = base::WithoutByteOrderMark(Trimmed(cursor.Line()));
   while (line.starts_with('#')) line = Trimmed(line.substr(1));
   constexpr std::string_view kYade = "format ";
   const bool yade = line.starts_with(kYade);

@@ -90,6 +90,16 @@ TEST(SceneJson, BadSphereFilesAreNamedWithTheLine) {
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,5,0.1\n"), HasSubstr("outside the domain"));
 }
 
+// They stood as spheres[1] and spheres[2] of a file that has one.
+TEST(SceneJson, SpheresOfAFileAreNamedAsSuch) {
+  base::WriteFileAtomically(std::filesystem::path(::testing::TempDir()) / "near.csv",
+                            "x_m,y_m,z_m,radius_m\n0,0,1,0.1\n0,0,1.05,0.1\n");
+  EXPECT_THAT(ErrorOf(R"({"materials": [{"name": "sand"}],
+                          "spheres": [{"diameter": "1 mm", "position": [0, 0, 0]}],
+                          "sphere_files": [{"file": "near.csv"}], "stop": {"time": 1}})"),
+              HasSubstr("sphere_files: one of their spheres overlaps a sphere of sphere_files"));
+}
+
 TEST(SceneJson, ATimeToHoldWithoutWhatIsHeldIsRefused) {
   EXPECT_THAT(
       ErrorOf(

@@ -102,9 +102,13 @@ TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
 
 // Every case says that it is 1, and the trials with larger grains were told as such.
 TEST_F(AddedParameters, AFixedFactorIsWhereItWasFixed) {
-  const auto folder = Finished(std::string(kHeaps) +
-                               R"(, "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
-        "rolling_friction": {"min": 0.05, "max": 0.5}, "particle_size": {"fixed": 1.2}})");
+  const std::filesystem::path spec = WriteFakeSpec(scratch_.path() / "fixed_in", kHeaps);
+  std::string text = base::ReadFile(spec);
+  text.insert(text.find("\"sliding_friction\""), R"("particle_size": {"fixed": 1.2}, )");
+  std::ofstream(spec) << text;
+  const std::filesystem::path folder = scratch_.path() / "fixed";
+  BeginCampaign(spec, folder);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_THAT(ErrorOf(folder, "particle_size=0.8..1.1"), HasSubstr("the range must hold 1.2"));
 }
 

@@ -3,13 +3,16 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "tests/error_in.h"
+#include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
 namespace spec_test {
@@ -142,6 +145,26 @@ TEST(Spec, WhatTheContactLawsDoNotAskForIsNotSearched) {
   EXPECT_THAT(ErrorOf(with("none", "plate_pair_rolling_friction")),
               HasSubstr("parameters.plate_pair_rolling_friction: has no effect without a rolling"));
   EXPECT_EQ(ErrorOf(with("epsd", "rolling_damping")), "");
+}
+
+TEST(Spec, DecksThatTakeNoSeedOrNoGrainSizeAreWarnedOf) {
+  const ScratchFolder scratch;
+  CampaignSpec spec = Read(kGood);
+  spec.engine.kind = EngineKind::kCommand;
+  spec.engine.command.command = {"sh", "run.sh"};
+  spec.engine.command.templates = scratch.path();
+  const auto warnings = [&](const char* deck) {
+    std::ofstream(scratch.path() / "run.sh") << deck;
+    return DeckWarnings(spec);
+  };
+  ASSERT_EQ(warnings("{{ sliding_friction }}").size(), 1u);
+  EXPECT_THAT(warnings("{{ sliding_friction }}")[0], HasSubstr("are one run again"));
+  EXPECT_TRUE(warnings("{{ prime_seed }}").empty());
+  spec.coarse_graining.scale_factors = {3, 2};
+  ASSERT_EQ(warnings("{{ seed }}").size(), 1u);
+  EXPECT_THAT(warnings("{{ seed }}")[0], HasSubstr("trials at all scale factors are the same"));
+  EXPECT_TRUE(warnings("{{ seed }} {{ mean_diameter }}").empty());
+  EXPECT_TRUE(warnings("{{# grains }}{{ radius }}{{/ grains }}").empty());
 }
 
 TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {

@@ -54,6 +54,16 @@ const Rig& PlainCell() {
   return *kRig;
 }
 
+// Before any look, as where the travel is over between two: "the rig has no such stress" was said.
+TEST(ShearCell, ATravelThatIsNotLookedAtHasNoStress) {
+  const nlohmann::json result = ResultOf(*MakeRig(Cell(0.5)));
+  EXPECT_TRUE(result["observables"].empty());
+  for (const char* name : {"shear_stress_1_pa", "shear_stress_2_pa", "cohesion_pa"}) {
+    EXPECT_THAT(result["undefined"].value(name, ""),
+                HasSubstr("no look fell into the second half"));
+  }
+}
+
 // Its line goes through the origin but for the weight of the powder, which adds up to 150 Pa, that
 // of the whole bed, to the lid's stress (70 Pa of shear), and for the means' scatter of some 30 Pa.
 TEST(ShearCell, APowderWithoutCohesionHasALineThroughTheOrigin) {

@@ -1,4 +1,5 @@
 // What another engine's command leaves that nobody can have meant: it was measured without a word.
+// Two files of which either may be meant are refused; the rest is doubted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,10 +22,17 @@ class CommandDoubtsTest : public CommandFixture {
     fs::remove_all(root_ / "trial");
     return FailureOf();
   }
-  std::string RefusalOfImage(const imaging::GrayImage& image) {
+  // What is doubted of what it leaves; empty if nothing is.
+  std::string DoubtOf(const std::string& script) {
+    Deck("run.sh", script);
+    fs::remove_all(root_ / "trial");
+    Run();
+    return CommandEngine(options_).Collect(SmallCase(), root_ / "trial").doubt;
+  }
+  std::string DoubtOfImage(const imaging::GrayImage& image) {
     imaging::WritePng(root_ / "deck/prepared.png", image);
     options_.result = "profile.png";
-    return RefusalOf("cp prepared.png profile.png\n");
+    return DoubtOf("cp prepared.png profile.png\n");
   }
 };
 
@@ -33,17 +41,17 @@ constexpr const char* kGrain = "printf 'x,y,z,r\\n0,0,5e-4,5e-4\\n";
 // A plate whose top lies below the origin: grains were cut off at it.
 TEST_F(CommandDoubtsTest, GrainsInsideThePlate) {
   const std::string grain = kGrain;
-  EXPECT_THAT(RefusalOf(grain + "' >heap.csv\n"), IsEmpty());
-  EXPECT_THAT(RefusalOf(grain + "4e-4,0,-4e-4,5e-4\\n' >heap.csv\n"),
+  EXPECT_THAT(DoubtOf(grain + "' >heap.csv\n"), IsEmpty());
+  EXPECT_THAT(DoubtOf(grain + "4e-4,0,-4e-4,5e-4\\n' >heap.csv\n"),
               AllOf(HasSubstr("1 sphere inside the plate, the lowest centre at z = -0.0004 m"),
                     HasSubstr("is engine.plate_center right")));
   // Beside the plate, whose radius is 5 mm, grains may hang from its rim.
-  EXPECT_THAT(RefusalOf(grain + "5.2e-3,0,-1e-4,5e-4\\n4.9e-3,0,5e-4,5e-4\\n' >heap.csv\n"),
+  EXPECT_THAT(DoubtOf(grain + "5.2e-3,0,-1e-4,5e-4\\n4.9e-3,0,5e-4,5e-4\\n' >heap.csv\n"),
               IsEmpty());
 }
 
 TEST_F(CommandDoubtsTest, SeveralMomentsInOneTable) {
-  EXPECT_THAT(RefusalOf(std::string(kGrain) + "0,1e-6,5e-4,5e-4\\n' >heap.csv\n"),
+  EXPECT_THAT(DoubtOf(std::string(kGrain) + "0,1e-6,5e-4,5e-4\\n' >heap.csv\n"),
               AllOf(HasSubstr("1 grain of 2 inside another"), HasSubstr("several moments")));
 }
 
@@ -84,11 +92,11 @@ TEST_F(CommandDoubtsTest, NumbersBesideAResultInASubfolder) {
 TEST_F(CommandDoubtsTest, SilhouettesOfNothingOrInverted) {
   imaging::GrayImage image{.width = 40, .height = 30, .pixels = {}};
   image.pixels.assign(1200, 255);
-  EXPECT_THAT(RefusalOfImage(image), HasSubstr("without powder"));
+  EXPECT_THAT(DoubtOfImage(image), HasSubstr("shows no powder"));
   std::fill(image.pixels.begin(), image.pixels.begin() + 600, 0);
-  EXPECT_THAT(RefusalOfImage(image), HasSubstr("with dark sky; it must show the powder black"));
+  EXPECT_THAT(DoubtOfImage(image), HasSubstr("has a dark sky; it must show the powder black"));
   std::reverse(image.pixels.begin(), image.pixels.end());
-  EXPECT_THAT(RefusalOfImage(image), IsEmpty());
+  EXPECT_THAT(DoubtOfImage(image), IsEmpty());
 }
 
 // Its banner is longer than what is quoted of a log.
@@ -113,21 +121,6 @@ TEST_F(CommandDoubtsTest, ASignalThatEndsTheCommandIsTheTrials) {
   EXPECT_EQ(runners::SignalOf(137), 9);
   EXPECT_FALSE(runners::SignalOf(255).has_value());
   EXPECT_FALSE(runners::SignalOf(128).has_value());
-}
-
-TEST_F(CommandDoubtsTest, ADeckThatTakesNoGrainSizeServesOneScaleFactorOnly) {
-  Deck("run.sh", "echo {{ sliding_friction }}\n");
-  const auto problems = [&](bool has_several_sizes) {
-    base::Problems found("spec.json", {});
-    CheckCommand(options_,
-                 {.rig_case = SmallCase(), .searched = {}, .has_several_sizes = has_several_sizes},
-                 found);
-    return found.Text();
-  };
-  EXPECT_EQ(problems(false), "");
-  EXPECT_THAT(problems(true), HasSubstr("trials at all scale factors would be the same"));
-  Deck("run.sh", "echo {{ sliding_friction }} {{ mean_diameter }}\n");
-  EXPECT_EQ(problems(true), "");
 }
 
 }  // namespace command_doubts_test
