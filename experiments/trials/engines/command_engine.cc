@@ -427,6 +427,13 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
     if (std::ranges::find(stated, searched.name) != stated.end()) continue;
     RequireTaken(options, templates, searched, problems);
   }
+  const std::string program = fs::path(options.command.front()).filename().string();
+  const bool launches = program == kMpiLauncher || program == "mpiexec" || program == "srun";
+  problems.Require(
+      !launches || !IsLaunchedByUs(options, templates), "command",
+      "begins with " + program +
+          ", and would be started by mpirun once for each of the ranks; write {{ ranks "
+          "}} where it takes their number, or leave it out");
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

@@ -57,6 +57,19 @@ TEST_F(MpiCommand, ACommandThatKnowsItsRanksStartsThemItself) {
   EXPECT_EQ(Text("trial/ran"), "ran -n 1\n");
 }
 
+// Each of the ranks would start as many.
+TEST_F(MpiCommand, MpirunWithinMpirunIsRefused) {
+  PutLauncher();
+  options_.ranks = 2;
+  options_.command = {"mpirun", "-np", "2", "sh", "run.sh"};
+  EXPECT_THAT(CheckErrors(), HasSubstr("command: begins with mpirun"));
+  options_.command = {"mpirun", "-np", "{{ ranks }}", "sh", "run.sh"};
+  EXPECT_EQ(CheckErrors(), "");
+  options_.command = {"mpirun", "-np", "2", "sh", "run.sh"};
+  options_.ranks = 1;
+  EXPECT_EQ(CheckErrors(), "");
+}
+
 TEST_F(MpiCommand, AMissingLauncherIsFoundBeforeAnythingRuns) {
   options_.ranks = 2;
   ::setenv("PATH", (root_ / "bin").c_str(), 1);
