@@ -61,7 +61,7 @@ void PrintRigs(const campaign::CampaignSpec& spec,
     const rigs::Case rig_case = campaign::TypicalCase(spec, static_cast<int>(e), finest);
     std::cout << "  rig               "
               << (experiments.size() > 1 ? experiments[e].name + ": " : "")
-              << rigs::DeviceText(rig_case) << ", mass "
+              << rigs::DeviceText(rig_case.rig) << ", mass "
               << base::ShortNumber(1e3 * rig_case.powder.mass) << " g\n";
   }
 }
@@ -190,7 +190,7 @@ void ValidateHeap(const base::JsonFile& file, bool) {
   const rigs::Case rig_case = rigs::LoadCase(file.path);
   const campaign::RunEstimate run = campaign::EstimateRun(rig_case);
   std::cout << file.path.string() << ": is a case in order\n  rig               "
-            << rigs::DeviceText(rig_case) << "\n  simulation        " << campaign::RunText(run)
+            << rigs::DeviceText(rig_case.rig) << "\n  simulation        " << campaign::RunText(run)
             << ", about " << trials::DurationText(run.core_seconds) << " of a core\n";
   for (const std::string& warning : rigs::CaseWarnings(rig_case)) {
     std::cout << "  warning: " << warning << '\n';

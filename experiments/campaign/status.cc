@@ -56,7 +56,7 @@ struct Kind {
 std::string BestLine(const std::vector<journal::TrialRecord>& trials,
                      const journal::CampaignRecord& campaign, const Reference& reference,
                      const Kind& kind) {
-  if (!reference.has_image()) return "none, it has numbers only\n";
+  if (!reference.has_image()) return "numbers only, so none is the best\n";
   const journal::TrialRecord* best = nullptr;
   double best_value = 0;
   for (const journal::TrialRecord& trial : trials) {
@@ -66,8 +66,8 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
     best = &trial;
     best_value = *value;
   }
-  if (best == nullptr) return "no trial has succeeded yet\n";
-  return base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
+  if (best == nullptr) return "none has succeeded yet\n";
+  return "best " + base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
          (reference.info().is_angle ? " off" : "") + ", trial " + std::to_string(best->id) + ": " +
          SetText(campaign.parameters, best->native) + "\n";
 }
@@ -84,7 +84,7 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
           [&](const journal::TrialRecord& t) { return kind.Is(t) && t.IsOfSearch(); });
       text += "  " + campaign.experiments[e].name + " at scale factor " +
               base::ShortNumber(factor) + ": " + std::to_string(count) +
-              " trials but for confirming ones, best " +
+              " trials besides those that confirm; " +
               BestLine(trials, campaign, references[e], kind);
     }
   }

@@ -26,7 +26,7 @@ void ValidatePouringTime(const Case& c, const Vessel& vessel, base::Problems& pr
   const bool is_short = pour.Duration() <= kLongest;
   if (c.filling.rate) {
     return problems.Require(is_short, "filling.rate", pour.plan().rate,
-                            "kg/s pours for " + seconds + "; raise it to " + rate + " or more");
+                            "in kg/s, pours for " + seconds + "; raise it to " + rate + " or more");
   }
   problems.Require(
       is_short, "powder.mass", c.powder.mass,

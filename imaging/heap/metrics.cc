@@ -163,7 +163,8 @@ std::string SizeText(const GrayImage& image) {
 }
 
 void Validate(const Profile& profile, base::Problems& problems) {
-  const auto& [image, frame] = profile;
+  const GrayImage& image = profile.image;
+  const Frame& frame = profile.frame;
   problems.Within("frame", [&] { frame.Validate(problems); });
   const std::size_t num_pixels =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

@@ -9,6 +9,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 #include "experiments/analysis/card/card_json.h"
+#include "experiments/rigs/case/device_text.h"
 
 namespace talus::analysis {
 
@@ -34,19 +35,14 @@ nlohmann::ordered_json RangesJson(const Card& card) {
 }
 
 std::string TestText(const CardTest& test) {
-  const std::string name = base::OneLine(test.name) + ": ";
+  const std::string name = base::OneLine(test.name);
   if (test.rig.kind == rigs::RigKind::kLiftedTube) {
     const rigs::LiftedTubeOptions& tube = test.rig.lifted_tube;
-    return name + "tube of " + CardNumber(tube.tube_inner_diameter * 1e3) + " mm lifted at " +
+    return name + ": tube of " + CardNumber(tube.tube_inner_diameter * 1e3) + " mm lifted at " +
            CardNumber(tube.lift_velocity * 1e3) + " mm/s off a plate of " +
            CardNumber(tube.plate_diameter * 1e3) + " mm";
   }
-  std::string text = name + std::string(base::NameOf(test.rig.kind));
-  const nlohmann::ordered_json json = base::ToJson(test.rig);
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_number()) text += ", " + key + " " + CardNumber(value.get<double>());
-  }
-  return text + " (SI)";
+  return name + ", " + rigs::DeviceText(test.rig);
 }
 
 namespace {

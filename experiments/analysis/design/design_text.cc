@@ -105,7 +105,7 @@ std::string TestText(const campaign::JointView& view, const TestCandidate& test,
       campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
   std::string text = "  " + test.name + "\n    " + base::Counted(test.runs, "run") + " of " +
                      ShortNumber(1e3 * c.powder.mass) + " g, " + FillingText(c.filling.kind) +
-                     "; " + rigs::DeviceText(c) + "\n";
+                     "; " + rigs::DeviceText(c.rig) + "\n";
   if (FrameOf(view, test)) {
     text +=
         "    photograph every run from several sides by turning the plate, with light from "

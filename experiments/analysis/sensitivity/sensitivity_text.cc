@@ -128,7 +128,7 @@ std::string SensitivityText(const SensitivityTable& table) {
   text +=
       "  Shifts of outputs are in what one simulation scatters by. (!) beyond half of the stated "
       "range, (?) not\n  told from the noise.\n";
-  for (const std::string& alarm : SensitivityAlarms(table)) text += "  ALARM  " + alarm + "\n";
+  for (const std::string& alarm : SensitivityAlarms(table)) text += "  warning: " + alarm + "\n";
   return text;
 }
 

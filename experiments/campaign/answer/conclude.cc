@@ -252,9 +252,10 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
   }
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    conditions.devices.push_back({.experiment = experiments[e].name,
-                                  .text = rigs::DeviceText(TypicalCase(
-                                      spec, static_cast<int>(e), spec.coarse_graining.Target()))});
+    conditions.devices.push_back(
+        {.experiment = experiments[e].name,
+         .text = rigs::DeviceText(
+             TypicalCase(spec, static_cast<int>(e), spec.coarse_graining.Target()).rig)});
   }
   return conditions;
 }

@@ -30,8 +30,8 @@ struct Stop {
   double value = 0;
   std::optional<optimizer::StopReason> rule{};
   std::string cause{};  // a failed trial's own words, or the name of a number
-  std::string
-      experiment{};  // whose trials these are; empty where there is one, or where all are meant
+  // Whose trials these are; empty where there is one experiment, or where all are meant.
+  std::string experiment{};
 
   std::string Text() const;
 

@@ -76,14 +76,14 @@ std::string QuantityText(double value, base::Dimension dimension) {
   }
 }
 
-std::string DeviceText(const Case& rig_case) {
+std::string DeviceText(const RigOptions& rig) {
   Quantities quantities;
-  if (rig_case.rig.kind == RigKind::kLiftedTube) {
-    LiftedTubeOptions::Visit(rig_case.rig.lifted_tube, quantities);
+  if (rig.kind == RigKind::kLiftedTube) {
+    LiftedTubeOptions::Visit(rig.lifted_tube, quantities);
   } else {
-    RigOptions::Visit(rig_case.rig, quantities);
+    RigOptions::Visit(rig, quantities);
   }
-  return base::Spaced(base::NameOf(rig_case.rig.kind)) + quantities.text;
+  return base::Spaced(base::NameOf(rig.kind)) + quantities.text;
 }
 
 }  // namespace talus::rigs

@@ -13,6 +13,6 @@ std::string QuantityText(double value, base::Dimension dimension);
 
 // "drum: diameter 84 mm, width 14 mm, speed 10 rpm": lengths, speeds, angles, times and stresses of
 // the rig's own options.
-std::string DeviceText(const Case& rig_case);
+std::string DeviceText(const RigOptions& rig);
 
 }  // namespace talus::rigs

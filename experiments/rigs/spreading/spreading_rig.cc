@@ -57,19 +57,19 @@ class SpreadingRig : public RememberingRig<NoMemory> {
                      "must be above five (scaled) grain diameters: a layer is read on it");
     if (o.bed) {
       problems.Require(*o.bed > 2 * LargestDiameter(c), "rig.bed", *o.bed,
-                       "m must be above two (scaled) grain diameters: less is no bed");
+                       "in m, must be above two (scaled) grain diameters: less is no bed");
     }
     const double height = FilledHeight(c, VesselOf(c));
     const double diameter = 2 * o.RollerRadius();
     problems.Require(
         o.spreader != Spreader::kRoller || diameter >= height, "rig.roller_diameter", diameter,
-        "m is below the height of the heap, " + base::ShortNumber(1e3 * height) +
+        "in m, is below the height of the heap, " + base::ShortNumber(1e3 * height) +
             " mm: powder would run over the roller; take a larger one, less powder or a "
             "longer rig.feed");
     const double higher = height / o.feed;
     problems.Require(
         higher <= 3, "powder.mass", c.powder.mass,
-        "stands " + base::ShortNumber(higher) +
+        "in kg, and stands " + base::ShortNumber(higher) +
             " times as high as its platform is long, must be 3 or less; take less powder "
             "or a longer rig.feed");
   }

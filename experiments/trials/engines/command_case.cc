@@ -66,7 +66,8 @@ std::string CaseText(const CommandCase& command_case) {
 
 CommandCase LoadCommandCase(const base::JsonFile& file) {
   auto command_case = base::LoadOptions<CommandCase>(WithoutKind(file));
-  auto& [heap, engine] = command_case;
+  rigs::Case& heap = command_case.heap;
+  CommandOptions& engine = command_case.engine;
   FollowMovedTemplates(file.path, engine);
   rigs::CompleteCase(heap);
   base::Problems problems(file.path.string(), file.places);

@@ -18,8 +18,7 @@ struct GrainDoubt {
 
 // All spheres in the file, those that have fallen off the plate too: their median diameter by
 // volume, by a factor of 1.5, more mass than the powder has, by a factor of 1.2, and grains that
-// lie in one another. Less mass is no doubt: what has left the box is in no file. Certain: 10, 100
-// or 1000 times too large or too small, or more than one in a hundred in another.
+// lie in one another. Less mass is no doubt: what has left the box is in no file.
 std::optional<GrainDoubt> DoubtOfGrains(const rigs::Case& rig_case,
                                         std::span<const base::Sphere> spheres);
 

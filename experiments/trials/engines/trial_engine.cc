@@ -32,15 +32,17 @@ void KeepTimes(const std::filesystem::path& from, const std::filesystem::path& t
 // What Open MPI says between dashes after the words of a process that failed: only that it did.
 void DropLaunchersWords(std::string& text) {
   const std::string rule(60, '-');
-  for (auto at = text.find(rule); at != std::string::npos; at = text.find(rule, at + 1)) {
+  for (auto at = text.find(rule); at != std::string::npos;) {
     const auto words = text.find_first_not_of("-\n", at);
-    if (at == 0 || words == std::string::npos) return;
+    if (words == std::string::npos) return;
     const std::string_view said = std::string_view(text).substr(words);
-    if (said.starts_with("Primary job") || said.starts_with("mpirun ") ||
-        said.starts_with("MPI_ABORT was invoked")) {
+    const bool is_theirs = said.starts_with("Primary job") || said.starts_with("mpirun ") ||
+                           said.starts_with("MPI_ABORT was invoked");
+    if (is_theirs && at > 0) {
       text.erase(at);
       return;
     }
+    at = text.find(rule, words);
   }
 }
 

@@ -169,7 +169,7 @@ TEST(CardTests, NameTheRigThatTheSetComesFrom) {
   rig_case.powder.sizes = {.kind = engine::SizeKind::kUniform, .min = 1e-3, .max = 2e-3};
   const Card card = CardOf(rig_case);
   const std::string text = CardText(card, CardFormat::kTable);
-  EXPECT_THAT(text, HasSubstr("drum, diameter 0.06"));
+  EXPECT_THAT(text, HasSubstr("drum, drum: diameter 60 mm"));
   EXPECT_THAT(text, testing::Not(HasSubstr("lifted")));
   ASSERT_EQ(card.sizes.size(), 5u);
   EXPECT_GT(card.sizes[0].diameter, 1e-3);

@@ -89,7 +89,7 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
   EXPECT_GT(move.outputs[0].shift, 2 * move.outputs[0].noise);
   ASSERT_EQ(SensitivityAlarms(table).size(), 1u);
   EXPECT_THAT(SensitivityText(table),
-              HasSubstr("ALARM  restitution 0.6 in place of 0.9 would move rolling_friction"));
+              HasSubstr("warning: restitution 0.6 in place of 0.9 would move rolling_friction"));
 }
 
 // It was kept as a failure of what was moved, also when there was room again.

@@ -94,7 +94,7 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
   EXPECT_EQ(experiments.at(1).num_trials, 2);
   EXPECT_NEAR(experiments.at(1).scalars.at(0).mean, 1480, 30);
   EXPECT_THAT(StatusText(folder), HasSubstr("tapped at scale factor 2: "));
-  EXPECT_THAT(StatusText(folder), HasSubstr("none, it has numbers only"));
+  EXPECT_THAT(StatusText(folder), HasSubstr("numbers only, so none is the best"));
   EXPECT_EQ(analysis::GatherEvidence(folder, "").trials.size(), simulated[0]);
   EXPECT_EQ(analysis::GatherEvidence(folder, "tapped").trials.size(), simulated[1]);
 }

@@ -240,10 +240,10 @@ TEST(DeviceText, HasWhatTheTestIsMadeWithInTheBenchsUnits) {
   Case c;
   c.rig.kind = RigKind::kShearCell;
   c.rig.shear_cell.stresses = {200, 1e3, 2.5e3};
-  EXPECT_EQ(DeviceText(c),
+  EXPECT_EQ(DeviceText(c.rig),
             "shear cell: stresses 200 Pa, 1 kPa and 2.5 kPa, diameter 25 mm, speed 2 cm/s");
   c.rig.kind = RigKind::kDrum;
-  EXPECT_EQ(DeviceText(c), "drum: diameter 60 mm, width 14 mm, speed 10 rpm");
+  EXPECT_EQ(DeviceText(c.rig), "drum: diameter 60 mm, width 14 mm, speed 10 rpm");
   EXPECT_EQ(QuantityText(10 * std::numbers::pi / 180, base::Dimension::kAngularVelocity),
             "10 deg/s");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "experiments/analysis/report/data/profile_views.h"
 #include "experiments/analysis/report/views/answer_words.h"
@@ -80,7 +79,7 @@ std::optional<std::size_t> ClosestPair(const ReportData& data) {
 
 double RegionShare(const ReportData& data) {
   if (data.pairs.empty()) return kUndefined;
-  return std::ranges::min(data.pairs | std::views::transform(InsideShare));
+  return InsideShare(*std::ranges::min_element(data.pairs, {}, InsideShare));
 }
 
 void Follow(const ReportData& data, std::vector<RegionPoint>& history) {
