@@ -30,13 +30,14 @@ void OfName(Ranges& ranges, const std::string& name, const Change& change) {
 
 // The one value that all trials have, whatever set and experiment they are of.
 double ValueOfTrials(const CampaignSpec& spec, const std::string& name) {
-  const auto num_free = static_cast<Eigen::Index>(SpaceOf(spec).Free().size());
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  const auto num_free = static_cast<Eigen::Index>(space.Free().size());
   std::optional<double> value;
   for (std::size_t e = 0; e < ExperimentsOf(spec).size(); ++e) {
     for (const double corner : {0.0, 1.0}) {
       const rigs::Case rig_case = CaseAt(spec, Eigen::VectorXd::Constant(num_free, corner),
                                          static_cast<int>(e), spec.coarse_graining.Target());
-      const std::optional<double> here = HeldAt(SpaceOf(spec), rig_case, name);
+      const std::optional<double> here = HeldAt(space, rig_case, name);
       if (!here) continue;
       if (value && *here != *value) {
         throw base::ConfigError(

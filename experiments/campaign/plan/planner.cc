@@ -81,6 +81,7 @@ std::string Planner::NameAmongSeveral(int experiment) const {
 // An experiment whose first trials all fail has a mistake in its set-up; going on would only cost.
 // Also one that is held out: without it there is nothing to predict.
 void Planner::CheckThatSomeSucceed(const journal::TrialRecord& last) {
+  if (last.status != journal::TrialStatus::kFailed) return;
   const std::set<int> failing = FailingExperiments(trials_);
   if (!failing.contains(last.experiment)) return;
   const auto failed = std::ranges::count_if(trials_, [&](const journal::TrialRecord& trial) {

@@ -54,6 +54,7 @@ std::string FirstStep(const fs::path& file) {
 // The last by name must be the last of all: not a part of a moment that each process has written
 // its own file of, nor, where names carry decimals, an earlier one.
 void RequireLast(const std::vector<fs::path>& matches) {
+  if (matches.size() < 2) return;
   const fs::path& last = matches.back();
   const std::string step = FirstStep(last);
   for (const fs::path& other : matches) {
