@@ -2,16 +2,17 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
+
+#include "base/not_known.h"
 
 namespace talus::base {
 
 struct Sample {
   int count = 0;
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double variance = std::numeric_limits<double>::quiet_NaN();  // of one, unbiased; NaN below two
+  double mean = kNotKnown;
+  double variance = kNotKnown;  // of one, unbiased; NaN below two
 
   double Sd() const { return std::sqrt(variance); }
   double StandardError() const { return std::sqrt(variance / count); }  // of the mean
@@ -40,8 +41,7 @@ struct PooledScatter {
   }
   // Standard error of the mean of so many; NaN where no group has two values.
   double StandardError(int count) const {
-    return degrees == 0 ? std::numeric_limits<double>::quiet_NaN()
-                        : std::sqrt(squares / degrees / count);
+    return degrees == 0 ? kNotKnown : std::sqrt(squares / degrees / count);
   }
 };
 

@@ -52,6 +52,11 @@ void SyncFolderOf(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string FolderName(const std::filesystem::path& folder) {
+  const std::filesystem::path clean = std::filesystem::absolute(folder).lexically_normal();
+  return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+}
+
 void ThrowUnwritten(const std::filesystem::path& path, int code) {
   throw Unwritten(path.string() + std::string(kUnwritten) + std::strerror(code));
 }

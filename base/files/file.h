@@ -21,6 +21,9 @@ std::string ReadTail(const std::filesystem::path& path, std::size_t count);
 // survives a crash of the program but may be lost in a power cut; for what can be made again.
 enum class Outlives { kPowerCut, kProgram };
 
+// The last name of a folder's path, whether or not that ends with a slash or is relative (".").
+std::string FolderName(const std::filesystem::path& folder);
+
 // Writes beside `path`, syncs, then renames: a reader sees the old file or the new one. Throws
 // Error (with the system's reason, such as a full disk) and removes the partial file when it fails.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
