@@ -4,12 +4,14 @@
 #include <numbers>
 #include <optional>
 
+#include "base/line_fit.h"
+
 namespace talus::imaging {
 namespace {
 
 constexpr double kHalf = 127.5;
-constexpr double kFringe = 0.02;          // share of the powder beyond the bed's ends
-constexpr std::size_t kFewestPoints = 8;  // of a line
+constexpr double kFringe = 0.02;  // share of the powder beyond the bed's ends
+constexpr int kFewestPoints = 8;  // of a line
 
 // From half-way on: a sum of grey levels would take half of the camera's noise on light for powder,
 // as a map has no level beyond white.
@@ -55,17 +57,12 @@ std::optional<double> SurfaceRow(const DrumMap& map, int x) {
 }
 
 Measured LineAngle(const std::vector<DrumPoint>& points, double from, double to) {
-  double n = 0, sx = 0, sh = 0, sxx = 0, sxh = 0;
+  base::LineFit fit;
   for (const DrumPoint& p : points) {
-    if (p.x < from || p.x > to) continue;
-    n += 1;
-    sx += p.x;
-    sh += p.height;
-    sxx += p.x * p.x;
-    sxh += p.x * p.height;
+    if (p.x >= from && p.x <= to) fit.Add(p.x, p.height);
   }
-  if (n < kFewestPoints) return {.not_defined = "the surface is too short"};
-  return {.value = -std::atan((n * sxh - sx * sh) / (n * sxx - sx * sx))};
+  if (fit.Count() < kFewestPoints) return {.not_defined = "the surface is too short"};
+  return {.value = -std::atan(fit.Slope())};
 }
 
 // Share of a disc below a chord that is `depth` radii below its centre.

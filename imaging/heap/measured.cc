@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "base/not_known.h"
+
 namespace talus::imaging {
 
 double StandardError(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (values.size() < 2) return base::kNotKnown;
   double mean = 0;
   for (const double value : values) mean += value / n;
   double squares = 0;

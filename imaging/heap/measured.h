@@ -1,15 +1,16 @@
 // A measured number, or the reason why there is none.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
+
+#include "base/not_known.h"
 
 namespace talus::imaging {
 
 struct Measured {
-  double value = std::numeric_limits<double>::quiet_NaN();           // unit as the owner says
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  // NaN when nothing tells it
+  double value = base::kNotKnown;           // unit as the owner says
+  double standard_error = base::kNotKnown;  // NaN when nothing tells it
   std::string not_defined{};  // "the heap is empty": completes "not defined, because …"
 
   bool defined() const { return not_defined.empty(); }

@@ -28,28 +28,6 @@ double SquareMillimetres(double pixels, const Frame& frame) {
   return pixels * pixel * pixel;
 }
 
-// Over the region of every picture of a film.
-Measured Rmse(const Profile& heap, const GrayImage& reference,
-              const std::optional<Region>& region) {
-  const int width = heap.frame.picture_width(), height = heap.frame.height;
-  const Region where =
-      region.value_or(Region{.left = 0, .top = 0, .width = width, .height = height});
-  if (!where.IsWithin(heap.frame)) {
-    return {.not_defined = "the region is not within the image"};
-  }
-  double squares = 0;
-  for (int picture = 0; picture < heap.frame.num_pictures(); ++picture) {
-    const int left = picture * width + where.left;
-    for (int y = where.top; y < where.top + where.height; ++y) {
-      for (int x = left; x < left + where.width; ++x) {
-        const double difference = heap.image.at(x, y) - reference.at(x, y);
-        squares += difference * difference;
-      }
-    }
-  }
-  return {.value = std::sqrt(squares / heap.frame.num_pictures() / where.width / where.height)};
-}
-
 Measured Iou(const GrayImage& a, const GrayImage& b) {
   double both = 0;
   double either = 0;
@@ -209,6 +187,27 @@ double Sad(const GrayImage& a, const GrayImage& b) {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
   return static_cast<double>(sum) / 255;
+}
+
+Measured Rmse(const Profile& heap, const GrayImage& reference,
+              const std::optional<Region>& region) {
+  const int width = heap.frame.picture_width(), height = heap.frame.height;
+  const Region where =
+      region.value_or(Region{.left = 0, .top = 0, .width = width, .height = height});
+  if (!where.IsWithin(heap.frame)) {
+    return {.not_defined = "the region is not within the image"};
+  }
+  double squares = 0;
+  for (int picture = 0; picture < heap.frame.num_pictures(); ++picture) {
+    const int left = picture * width + where.left;
+    for (int y = where.top; y < where.top + where.height; ++y) {
+      for (int x = left; x < left + where.width; ++x) {
+        const double difference = heap.image.at(x, y) - reference.at(x, y);
+        squares += difference * difference;
+      }
+    }
+  }
+  return {.value = std::sqrt(squares / heap.frame.num_pictures() / where.width / where.height)};
 }
 
 void RequireSameFrame(const Frame& a, const Frame& b) {

@@ -70,6 +70,10 @@ struct Metric {
   Measured reference;  // the same of the AEHP (0 for a difference, 1 for iou)
 };
 
+// Root mean square of the differences of grey levels over `region` of every picture, by default all
+// of it; not defined where the region is not within the image. The images are of one size.
+Measured Rmse(const Profile& heap, const GrayImage& reference, const std::optional<Region>& region);
+
 // All metrics, always the same names in the same order. Throws ConfigError when the frames differ
 // or are not valid, or an image is not of its frame's size.
 std::vector<Metric> CompareProfiles(const HeapImages& heap, const HeapImages& reference,

@@ -5,14 +5,15 @@
 #include <sstream>
 #include <vector>
 
+#include "base/line_fit.h"
 #include "imaging/heap/heap_alone.h"
 #include "imaging/heap/heap_shape.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr double kLowest = 3.0;           // a lower heap has no slope one could measure [px]
-constexpr std::size_t kFewestPoints = 5;  // of a regression
+constexpr double kLowest = 3.0;   // a lower heap has no slope one could measure [px]
+constexpr int kFewestPoints = 5;  // of a regression
 // Half the views decide where the outline is, but a tenth of them that overhang is enough to make
 // an angle meaningless.
 constexpr double kOverhangLevel = 0.9 * 255;
@@ -26,29 +27,20 @@ std::string Pixels(double length) {
 
 // −dh/dx of the least-squares line through the points with across >= from.
 Measured Regression(const Slope& slope, double from) {
-  double n = 0, sum_x = 0, sum_h = 0;
+  base::LineFit fit;
   for (const SlopePoint& point : slope.points) {
-    if (point.across < from) continue;
-    n += 1;
-    sum_x += point.across;
-    sum_h += point.height;
+    if (point.across >= from) fit.Add(point.across, point.height);
   }
-  if (n < kFewestPoints) return {.not_defined = "the slope is too short"};
-  double sxx = 0, sxh = 0;
-  for (const SlopePoint& point : slope.points) {
-    if (point.across < from) continue;
-    sxx += (point.across - sum_x / n) * (point.across - sum_x / n);
-    sxh += (point.across - sum_x / n) * (point.height - sum_h / n);
-  }
-  if (!(sxh < 0)) return {.not_defined = "the outline does not fall outwards"};
-  return {.value = std::atan(-sxh / sxx)};
+  if (fit.Count() < kFewestPoints) return {.not_defined = "the slope is too short"};
+  if (!(fit.Slope() < 0)) return {.not_defined = "the outline does not fall outwards"};
+  return {.value = -std::atan(fit.Slope())};
 }
 
 // The angle of one side by one method (0, 1, 2).
 Measured SideAngle(const HeapShape& shape, const Slope& slope, std::size_t method,
                    const ReposeOptions& options) {
+  if (method == 0 && slope.foot > 0) return {.value = std::atan(shape.height / slope.foot)};
   if (!(slope.foot - slope.shoulder > 0)) return {.not_defined = "there is no slope on this side"};
-  if (method == 0) return {.value = std::atan(shape.height / slope.foot)};
   const double share = method == 1 ? 1.0 : options.base_fraction;
   return Regression(slope, slope.foot - share * (slope.foot - slope.shoulder));
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/line_fit.h"
 
 namespace talus::imaging {
 namespace {
@@ -36,13 +37,7 @@ std::vector<double> OutlineOf(const BacklitPhoto& photo) {
   return outline;
 }
 
-struct Line {
-  double at_zero = 0;
-  double slope = 0;
-  double At(double x) const { return at_zero + slope * x; }
-};
-
-int CountOn(const Line& line, const std::vector<double>& outline) {
+int CountOn(const base::StraightLine& line, const std::vector<double>& outline) {
   int count = 0;
   for (std::size_t x = 0; x < outline.size(); ++x) {
     count += std::abs(outline[x] - line.At(static_cast<double>(x) + 0.5)) < kOnLine;
@@ -51,25 +46,19 @@ int CountOn(const Line& line, const std::vector<double>& outline) {
 }
 
 // Through the columns that lie on it already.
-Line Refit(const Line& line, const std::vector<double>& outline) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+base::StraightLine Refit(const base::StraightLine& line, const std::vector<double>& outline) {
+  base::LineFit fit;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const double x = static_cast<double>(i) + 0.5;
-    if (!(std::abs(outline[i] - line.At(x)) < kOnLine)) continue;
-    n += 1;
-    sx += x;
-    sy += outline[i];
-    sxx += x * x;
-    sxy += x * outline[i];
+    if (std::abs(outline[i] - line.At(x)) < kOnLine) fit.Add(x, outline[i]);
   }
-  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  return {.at_zero = (sy - slope * sx) / n, .slope = slope};
+  return fit.Line();
 }
 
 // The line through two columns that holds most of the others.
-Line BestLine(const std::vector<double>& outline) {
+base::StraightLine BestLine(const std::vector<double>& outline) {
   constexpr int kTried = 48;  // columns
-  Line best;
+  base::StraightLine best;
   int most = 0;
   const double step = static_cast<double>(outline.size() - 1) / (kTried - 1);
   for (int i = 0; i < kTried; ++i) {
@@ -79,8 +68,8 @@ Line BestLine(const std::vector<double>& outline) {
       if (a == b) continue;
       const double slope = (outline[b] - outline[a]) / static_cast<double>(b - a);
       if (!(std::abs(slope) <= kMostTilt)) continue;
-      const Line line{.at_zero = outline[a] - slope * (static_cast<double>(a) + 0.5),
-                      .slope = slope};
+      const base::StraightLine line{.at_zero = outline[a] - slope * (static_cast<double>(a) + 0.5),
+                                    .slope = slope};
       const int count = CountOn(line, outline);
       if (count <= most) continue;
       most = count;
@@ -128,7 +117,7 @@ TableLine TableUnder(const std::vector<double>& outline, const std::string& name
   if (static_cast<double>(dark) < kFewestDark * static_cast<double>(outline.size())) {
     ThrowNoTable(name, "no table found: the picture's lower border is not dark");
   }
-  const Line line = BestLine(outline);
+  const base::StraightLine line = BestLine(outline);
   if (std::isnan(line.at_zero)) ThrowNoTable(name, "no table found: no straight, level top");
   const double tilt = std::atan(line.slope);
   std::vector<double> above;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "imaging/formats/spheres/sphere_formats.h"
 #include "imaging/formats/spheres/text_cursor.h"
 
@@ -154,7 +155,7 @@ std::vector<base::Sphere> ReadDump(std::string_view text, const std::string& fil
     if (words.size() < row.size())
       cursor.Fail("this atom has too few values; is the file cut off?");
     for (std::size_t c = 0; c < row.size(); ++c) {
-      if (!ParseNumber(words[c], row[c])) row[c] = std::numeric_limits<double>::quiet_NaN();
+      if (!ParseNumber(words[c], row[c])) row[c] = base::kNotKnown;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!scaled[axis]) continue;

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "base/text/byte_order_mark.h"
 #include "imaging/formats/spheres/sphere_formats.h"
 #include "imaging/formats/spheres/text_cursor.h"
@@ -76,7 +77,7 @@ void ReadRow(const TextCursor& cursor, const std::vector<std::string_view>& cell
   }
   for (std::size_t c = 0; c < cells.size(); ++c) {
     // A column that is not ours may hold a text; if it is ours, Row's value is refused later.
-    if (!ParseNumber(cells[c], row[c])) row[c] = std::numeric_limits<double>::quiet_NaN();
+    if (!ParseNumber(cells[c], row[c])) row[c] = base::kNotKnown;
   }
   spheres.push_back(columns.Row(row));
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/line_fit.h"
 #include "imaging/photos/plate/corner_fit.h"
 
 namespace talus::imaging {
@@ -42,44 +43,27 @@ std::vector<EdgePoint> OutlineBeside(const TiltedView& tilted, const SideEnd& en
   return outline;
 }
 
-struct Line {
-  double at_zero = 0;
-  double slope = 0;
-  double squares = 0;  // sum of the squared distances of the points
-};
-
 // y against max(x, shelf).
-Line FitLine(const std::vector<EdgePoint>& points, double shelf) {
-  const auto n = static_cast<double>(points.size());
-  double mean_x = 0, mean_y = 0;
-  for (const EdgePoint& p : points) {
-    mean_x += std::max(p.x, shelf) / n;
-    mean_y += p.y / n;
-  }
-  double sxx = 0, sxy = 0, syy = 0;
-  for (const EdgePoint& p : points) {
-    const double x = std::max(p.x, shelf) - mean_x;
-    sxx += x * x;
-    sxy += x * (p.y - mean_y);
-    syy += (p.y - mean_y) * (p.y - mean_y);
-  }
-  const double slope = sxy / sxx;
-  return {.at_zero = mean_y - slope * mean_x, .slope = slope, .squares = syy - slope * sxy};
+base::LineFit FitBeyond(const std::vector<EdgePoint>& points, double shelf) {
+  base::LineFit fit;
+  for (const EdgePoint& p : points) fit.Add(std::max(p.x, shelf), p.y);
+  return fit;
 }
 
 // The bent line that is nearest to the outline, which the blur has rounded.
 CornerGuess GuessCorner(const std::vector<EdgePoint>& outline) {
   double shelf = 0;
-  Line best = FitLine(outline, shelf);
+  base::LineFit best = FitBeyond(outline, shelf);
   for (std::size_t i = 1; i + 2 < outline.size(); ++i) {
-    const Line line = FitLine(outline, outline[i].x);
-    if (line.slope < 0 || line.squares >= best.squares) continue;
-    best = line;
+    const base::LineFit fit = FitBeyond(outline, outline[i].x);
+    if (fit.Slope() < 0 || fit.Squares() >= best.Squares()) continue;
+    best = fit;
     shelf = outline[i].x;
   }
-  return {.slope_at_side = best.at_zero,
+  const base::StraightLine line = best.Line();
+  return {.slope_at_side = line.at_zero,
           .shelf = shelf,
-          .slope = best.slope,
+          .slope = line.slope,
           .farthest = outline.back().x};
 }
 
