@@ -60,7 +60,7 @@ Grains GrainsOf(const SceneSpec& spec, const Scene& scene) {
   return grains;
 }
 
-// A rolling dashpot that the step does not resolve.
+// A rolling dashpot or spring that the step does not resolve.
 void AddRollingStep(const SceneSpec& spec, const Scene& scene, double dt,
                     std::vector<std::string>& warnings) {
   if (scene.models.rolling != Rolling::kEpsd) return;
@@ -70,14 +70,17 @@ void AddRollingStep(const SceneSpec& spec, const Scene& scene, double dt,
     const int own = static_cast<int>(m);
     const Material material = With(scene.materials[m], StatedOf(scene.pairs, own, own));
     const double stress = BedStress(material.density, base::Norm(scene.gravity), grains.volume);
-    const double longest = LongestRollingStep(
+    const RollingLimit longest = LongestRollingStep(
         MakePairConstants(material, material, scene.models),
         {.radius = grains.smallest[m], .density = material.density, .stress = stress});
-    if (dt <= longest) continue;
-    warnings.push_back("materials[" + std::to_string(m) +
-                       "].rolling_damping: its dashpot would keep the spheres of a bed spinning at "
-                       "this time step (docs/physics.md, M6): take a time_step of " +
-                       base::ShortNumber(longest, 2) + " s or less, or less damping");
+    if (dt <= longest.step) continue;
+    warnings.push_back(
+        "materials[" + std::to_string(m) + "]." +
+        (longest.is_spring ? "rolling_friction: its spring" : "rolling_damping: its dashpot") +
+        " would keep the spheres of a bed spinning at this time step "
+        "(docs/physics.md, M6): take a time_step of " +
+        base::ShortNumber(longest.step, 2) + " s or less, or less " +
+        (longest.is_spring ? "rolling friction" : "damping"));
   }
 }
 

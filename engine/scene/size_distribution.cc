@@ -153,6 +153,22 @@ void RequireLists(base::Problems& problems, const SizeDistribution& s) {
   problems.Require(some, "shares", "must not all be the same or zero");
 }
 
+// Every length of a distribution.
+struct LengthScaler {
+  double factor;
+  void operator()(std::string_view, std::optional<double>& field,
+                  const base::FieldInfo& info = {}) const {
+    if (field && info.dimension == base::Dimension::kLength) *field *= factor;
+  }
+  void operator()(std::string_view, std::vector<double>& field,
+                  const base::FieldInfo& info = {}) const {
+    if (info.dimension != base::Dimension::kLength) return;
+    for (double& one : field) one *= factor;
+  }
+  template <class Field>
+  void operator()(std::string_view, Field&, const base::FieldInfo& = {}) const {}
+};
+
 }  // namespace
 
 void SizeDistribution::Validate(base::Problems& problems) const {
@@ -212,6 +228,11 @@ SizeCurve::SizeCurve(const SizeDistribution& sizes) {
 
 double SizeCurve::NumberQuantile(double q) const { return Inverse(edges_, number_, q); }
 double SizeCurve::VolumeQuantile(double q) const { return Inverse(edges_, volume_, q); }
+
+SizeDistribution Enlarged(SizeDistribution sizes, double factor) {
+  SizeDistribution::Visit(sizes, LengthScaler{factor});
+  return sizes;
+}
 
 std::vector<double> DrawDiameters(const SizeCurve& curve, double volume) {
   const auto draw = [&](std::int64_t n) {

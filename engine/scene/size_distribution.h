@@ -89,6 +89,9 @@ class SizeCurve {
   double mean_volume_ = 0;
 };
 
+// `sizes`, all of them so many times as large; `factor` > 0.
+SizeDistribution Enlarged(SizeDistribution sizes, double factor);
+
 // Diameters [m], increasing, of the grains that make up `volume` [m³] to within one grain: the
 // quantiles (i + 1/2)/n by number, so that the sample follows the curve as closely as n grains can.
 std::vector<double> DrawDiameters(const SizeCurve& curve, double volume);

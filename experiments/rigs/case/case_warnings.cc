@@ -64,15 +64,16 @@ std::string OpeningWarning(const Case& c, const Opening& opening) {
          "or several";
 }
 
-// A step that the rolling dashpot shortens much costs as many more.
+// A step that the rolling resistance shortens much costs as many more.
 std::string ShortStepWarning(const Case& c) {
   constexpr double kWorthSaying = 0.8;
   const double fraction = StepFraction(c);
   if (fraction >= kWorthSaying * c.rayleigh_fraction) return {};
   return "the time step is " + base::ShortNumber(fraction, 2) + " Rayleigh times in place of " +
-         base::ShortNumber(c.rayleigh_fraction) +
-         ": the rolling dashpot would keep grains spinning at a longer one (docs/physics.md, "
-         "M6); a smaller rolling_damping takes fewer steps";
+         base::ShortNumber(c.rayleigh_fraction) + ": the rolling " +
+         (IsSpringLimited(c) ? "spring" : "dashpot") +
+         " would keep grains spinning at a longer one (docs/physics.md, M6); a smaller rolling_" +
+         (IsSpringLimited(c) ? "friction" : "damping") + " takes fewer steps";
 }
 
 // Grains that are nearly as large as the gap are carried along by the spreader or stop it.
@@ -89,7 +90,9 @@ std::string GapWarning(const Case& c) {
 }  // namespace
 
 double GrainsAcrossPlate(const Case& c) {
-  return c.rig.lifted_tube.plate_diameter / EstimatePowder(c).mean_diameter;
+  const double plate = c.rig.kind == RigKind::kFunnelHeap ? c.rig.funnel_heap.plate_diameter
+                                                          : c.rig.lifted_tube.plate_diameter;
+  return plate / EstimatePowder(c).mean_diameter;
 }
 
 std::string FewGrainsText(double across, double scale_factor, const std::string& plate) {
@@ -105,7 +108,7 @@ std::string FewGrainsText(double across, double scale_factor, const std::string&
 std::vector<std::string> CaseWarnings(const Case& c) {
   std::vector<std::string> warnings;
   const double across = GrainsAcrossPlate(c);
-  if (c.rig.kind == RigKind::kLiftedTube && across < kAdvisedAcross) {
+  if (IsRoundHeap(c.rig.kind) && across < kAdvisedAcross) {
     warnings.push_back((across < kBoulders ? "COARSE: " : "") +
                        FewGrainsText(across, c.coarse_graining.scale_factor, ""));
   }

@@ -21,18 +21,29 @@ double Stress(const Case& c) {
   return c.rig.kind == RigKind::kShearCell && !lids.empty() ? weight + lids.back() : weight;
 }
 
+engine::Material GrainsOf(const Case& c) {
+  return engine::With(UsedMaterial(c), engine::StatedOf(PairsOf(c), kPowder, kPowder));
+}
+
+double SmallestRadius(const Case& c) {
+  return c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).smallest() / 2;
+}
+
+engine::RollingLimit Limit(const Case& c) {
+  const engine::Material powder = GrainsOf(c);
+  return engine::LongestRollingStep(
+      engine::MakePairConstants(powder, powder, c.models),
+      {.radius = SmallestRadius(c), .density = powder.density, .stress = Stress(c)});
+}
+
 }  // namespace
 
 double StepFraction(const Case& c) {
   if (c.models.rolling != engine::Rolling::kEpsd) return c.rayleigh_fraction;
-  const engine::Material powder =
-      engine::With(UsedMaterial(c), engine::StatedOf(PairsOf(c), kPowder, kPowder));
-  const double radius =
-      c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).smallest() / 2;
-  const double longest = engine::LongestRollingStep(
-      engine::MakePairConstants(powder, powder, c.models),
-      {.radius = radius, .density = powder.density, .stress = Stress(c)});
-  return std::min(c.rayleigh_fraction, longest / engine::RayleighTime(powder, radius));
+  return std::min(c.rayleigh_fraction,
+                  Limit(c).step / engine::RayleighTime(GrainsOf(c), SmallestRadius(c)));
 }
+
+bool IsSpringLimited(const Case& c) { return Limit(c).is_spring; }
 
 }  // namespace talus::rigs

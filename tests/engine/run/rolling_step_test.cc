@@ -61,9 +61,28 @@ TEST(RollingStep, TheDampedShareIsThatOfOneContact) {
   const double share = c_r * dt * 2 / (0.4 * mass * r * r);
   const BedGrains grains{.radius = r, .density = m.density, .stress = stress};
   EXPECT_NEAR(DampedShare(pair, grains, dt), share, 1e-12 * share);
-  EXPECT_NEAR(DampedShare(pair, grains, LongestRollingStep(pair, grains)), kMostDampedShare, 1e-12);
+  const RollingLimit longest = LongestRollingStep(pair, grains);
+  EXPECT_NEAR(DampedShare(pair, grains, longest.step), kMostDampedShare, 1e-12);
+  EXPECT_FALSE(longest.is_spring);
   const Material smooth{.rolling_friction = 0};
-  EXPECT_TRUE(std::isinf(LongestRollingStep(MakePairConstants(smooth, smooth, {}), grains)));
+  EXPECT_TRUE(std::isinf(LongestRollingStep(MakePairConstants(smooth, smooth, {}), grains).step));
+}
+
+// (R1) and the grains' inertia, as above. With little damping it is the spring that bounds the
+// step.
+TEST(RollingStep, TheSpringsPhaseIsThatOfOneContact) {
+  const Material m{
+      .density = 2500, .youngs_modulus = 1e6, .rolling_friction = 3, .rolling_damping = 0.05};
+  const PairConstants pair = MakePairConstants(m, m, {});
+  const double r = 5e-4, mass = SphereMass(m, r), dt = 1e-5, stress = 100;
+  const double k_n = 4.0 / 3 * pair.y_star * std::sqrt(r / 2 * PressedOverlap(pair, stress) * r);
+  const double k_r = 2.25 * k_n * std::pow(3 * r / 2, 2);
+  const double phase = std::sqrt(k_r * 2 / (0.4 * mass * r * r)) * dt;
+  const BedGrains grains{.radius = r, .density = m.density, .stress = stress};
+  EXPECT_NEAR(SpringPhase(pair, grains, dt), phase, 1e-12 * phase);
+  const RollingLimit longest = LongestRollingStep(pair, grains);
+  EXPECT_NEAR(SpringPhase(pair, grains, longest.step), kMostSpringPhase, 1e-12);
+  EXPECT_TRUE(longest.is_spring);
 }
 
 // At 0.30 t_R its dashpot takes 0.9 of a spin a contact: the grains chatter, and it is said. At a
