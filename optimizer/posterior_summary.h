@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::optimizer {
 
@@ -29,8 +29,8 @@ struct NumberStanding {
 struct ExperimentStanding {
   std::string name{};
   // Objective of the mean image at the target scale factor; NaN without images.
-  double predicted = std::numeric_limits<double>::quiet_NaN();
-  double predicted_sd = std::numeric_limits<double>::quiet_NaN();
+  double predicted = base::kNotKnown;
+  double predicted_sd = base::kNotKnown;
   double implausibility = 0;              // Posterior::Implausibility [standard deviations]
   double caution = 1;                     // times the predictions' sds in that [-], >= 1
   double model_error = 1;                 // that the posterior counts with, in run-to-run sds [-]

@@ -2,11 +2,11 @@
 // words in one place.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::optimizer {
 
@@ -48,11 +48,11 @@ constexpr StopLack LastOf(StopLack) { return StopLack::kShare; }
 struct StopShortfall {
   StopLack lack = StopLack::kGain;
   // Numbers of kShare only; NaN: not known.
-  std::vector<double> narrowing{};  // Outlook::again, of each parameter asked for [-]
-  double stop_share = std::numeric_limits<double>::quiet_NaN();  // as in StopRule::kShare [-]
-  double temper = 1;       // of the posterior, >= 1 (posterior/joint_misfit.h)
-  double most_temper = 1;  // the search stops at this or less
-  int num_more = 0;        // evaluations that `narrowing` is of
+  std::vector<double> narrowing{};      // Outlook::again, of each parameter asked for [-]
+  double stop_share = base::kNotKnown;  // as in StopRule::kShare [-]
+  double temper = 1;                    // of the posterior, >= 1 (posterior/joint_misfit.h)
+  double most_temper = 1;               // the search stops at this or less
+  int num_more = 0;                     // evaluations that `narrowing` is of
 };
 
 // Without a full stop. `names` of the parameters asked for.

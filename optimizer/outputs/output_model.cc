@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/not_known.h"
 #include "base/parallel_for.h"
 #include "optimizer/outputs/output_noise.h"
 #include "surrogate/standard_deviation.h"
@@ -14,7 +14,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostModes = 8;
 // Without noise every mode that is more than rounding is signal.
 constexpr int kMostModesIfDeterministic = 12;
@@ -80,7 +79,8 @@ Eigen::MatrixXd OutputModel::ValuesOf(const OutputData& data) const {
     if (num_modes() > 0) values.row(i).head(num_modes()) = modes_.Coefficients(data.vectors[k]);
     for (Eigen::Index s = 0; s < num_scalars; ++s) {
       const auto place = static_cast<std::size_t>(s);
-      const double value = place < data.scalars[k].size() ? data.scalars[k][place] : kUndefined;
+      const double value =
+          place < data.scalars[k].size() ? data.scalars[k][place] : base::kNotKnown;
       values(i, num_modes() + s) = Compress(setup_.scalars[place], value);
     }
   }
@@ -190,7 +190,7 @@ ModeMoments OutputModel::LeaveModesOut() const {
 }
 
 Eigen::MatrixXd OutputModel::LeaveOneOut() const {
-  Eigen::MatrixXd z = Eigen::MatrixXd::Constant(num_evaluations_, num_outputs(), kUndefined);
+  Eigen::MatrixXd z = Eigen::MatrixXd::Constant(num_evaluations_, num_outputs(), base::kNotKnown);
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions left_out = output(k).LeaveOneOut();
     const Eigen::VectorXd values = output(k).values();

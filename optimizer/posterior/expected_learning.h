@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <vector>
+
+#include "base/not_known.h"
 
 namespace talus::optimizer {
 
@@ -24,8 +25,7 @@ struct ExpectedLearning {
   Eigen::VectorXd width;
   Eigen::VectorXd narrow{};
   Eigen::VectorXd wide{};
-  double goal_half_width =
-      std::numeric_limits<double>::quiet_NaN();  // of the goal's 90 %, expected
+  double goal_half_width = base::kNotKnown;  // of the goal's 90 %, expected
   // Two draws that it separates most, rows.
   Eigen::Index first = 0;
   Eigen::Index second = 0;

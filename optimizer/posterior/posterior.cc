@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/not_known.h"
 #include "optimizer/posterior/importance_sample.h"
 #include "optimizer/space/point_rows.h"
 #include "surrogate/same_point.h"
@@ -43,7 +43,7 @@ Eigen::MatrixXd StackResiduals(const std::vector<ExperimentModel>& models,
         places.push_back({data[e].points[k], data[e].level[k], std::vector<bool>(models.size())});
         place = places.end() - 1;
         stacked.conservativeResize(stacked.rows() + 1, Eigen::NoChange);
-        stacked.bottomRows(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+        stacked.bottomRows(1).setConstant(base::kNotKnown);
       }
       place->has[e] = true;
       stacked.row(place - places.begin()).segment(left, z.cols()) = z.row(i);

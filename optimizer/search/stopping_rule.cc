@@ -1,7 +1,8 @@
 #include "optimizer/search/stopping_rule.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "base/not_known.h"
 
 namespace talus::optimizer {
 namespace {
@@ -11,7 +12,7 @@ constexpr double kMostTemper = 1.5;
 
 // NaN, which is below nothing, of no ranges.
 double Most(const std::vector<double>& narrowing) {
-  if (narrowing.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (narrowing.empty()) return base::kNotKnown;
   return *std::ranges::max_element(narrowing);
 }
 

@@ -42,11 +42,13 @@ void CheckConstraint(const LinearConstraint& constraint, const std::vector<Param
   }
 }
 
-// Whether the values of the constraint's parameters break it, by more than rounding: 0.1 + 0.2 is
-// at most 0.3. Not where `value_of` a parameter's index is not known.
+constexpr double kRounding = 1e-9;  // 0.1 + 0.2 is at most 0.3
+
+// Whether the values of the constraint's parameters break it, by more than this share of its
+// largest term. Not where `value_of` a parameter's index is not known.
 template <class ValueOf>
 bool Breaks(const LinearConstraint& constraint, const std::vector<Parameter>& parameters,
-            ValueOf&& value_of) {
+            double slack, ValueOf&& value_of) {
   double sum = 0, largest = std::abs(constraint.at_most);
   for (const LinearConstraint::Term& term : constraint.terms) {
     const std::optional<double> value =
@@ -55,11 +57,30 @@ bool Breaks(const LinearConstraint& constraint, const std::vector<Parameter>& pa
     sum += term.factor * *value;
     largest = std::max(largest, std::abs(term.factor * *value));
   }
-  return sum > constraint.at_most + 1e-9 * largest;
+  return sum > constraint.at_most + slack * largest;
+}
+
+std::vector<LinearConstraint>::const_iterator FirstBroken(
+    const std::vector<LinearConstraint>& constraints, const std::vector<Parameter>& parameters,
+    std::span<const double> native, double slack) {
+  return std::ranges::find_if(constraints, [&](const LinearConstraint& c) {
+    return Breaks(c, parameters, slack, [&](std::size_t i) { return std::optional(native[i]); });
+  });
+}
+
+std::string ConstraintText(const LinearConstraint& constraint) {
+  std::string text;
+  for (const LinearConstraint::Term& term : constraint.terms) {
+    const bool minus = term.factor < 0;
+    text += text.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
+    const double factor = std::abs(term.factor);
+    text += (factor == 1 ? "" : base::ShortNumber(factor) + " ") + term.parameter;
+  }
+  return text + " <= " + base::ShortNumber(constraint.at_most);
 }
 
 bool GuessesBreak(const LinearConstraint& constraint, const std::vector<Parameter>& parameters) {
-  return Breaks(constraint, parameters, [&](std::size_t i) {
+  return Breaks(constraint, parameters, kRounding, [&](std::size_t i) {
     return parameters[i].fixed ? parameters[i].fixed : parameters[i].guess;
   });
 }
@@ -240,9 +261,14 @@ Eigen::VectorXd ParameterSpace::ToUnit(std::span<const double> native) const {
 }
 
 bool ParameterSpace::Satisfies(std::span<const double> native) const {
-  return std::none_of(constraints.begin(), constraints.end(), [&](const LinearConstraint& c) {
-    return Breaks(c, parameters, [&](std::size_t i) { return std::optional(native[i]); });
-  });
+  return FirstBroken(constraints, parameters, native, kRounding) == constraints.end();
+}
+
+std::optional<std::string> ParameterSpace::BrokenBy(std::span<const double> native,
+                                                    double slack) const {
+  const auto broken = FirstBroken(constraints, parameters, native, slack);
+  if (broken == constraints.end()) return std::nullopt;
+  return ConstraintText(*broken);
 }
 
 Domain ParameterSpace::MakeDomain() const {

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "base/problems.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/space/prior.h"
@@ -21,8 +21,8 @@ inline constexpr int kMaxParameters = 6;
 
 struct Parameter {
   std::string name;
-  double low = std::numeric_limits<double>::quiet_NaN();
-  double high = std::numeric_limits<double>::quiet_NaN();
+  double low = base::kNotKnown;
+  double high = base::kNotKnown;
   Scale scale = Scale::kLinear;
   std::optional<double> guess = {};  // in [low, high]: tried first
   std::optional<double> fixed = {};  // held at this value and not searched; needs no range
@@ -112,6 +112,10 @@ struct ParameterSpace {
   Eigen::VectorXd ToUnit(std::span<const double> native) const;
 
   bool Satisfies(std::span<const double> native) const;
+  // The first constraint that values break by more than this share of its largest term,
+  // "rolling_friction - 0.5 sliding_friction <= 0"; nothing where they break none, or a value is
+  // NaN: not known.
+  std::optional<std::string> BrokenBy(std::span<const double> native, double slack) const;
 
   // Draws in the unit cube, one a row, those alone that lie inside it.
   Eigen::MatrixXd Inside(const EarlierDraws& draws) const;

@@ -1,10 +1,10 @@
 #include "optimizer/space/prior.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/normal.h"
+#include "base/not_known.h"
 #include "base/random.h"
 #include "optimizer/space/draws_density.h"
 
@@ -79,8 +79,7 @@ Eigen::MatrixXd Prior::Draw(Eigen::Index count, Eigen::Index dimension, std::uin
 }
 
 Eigen::VectorXd Prior::Offset(const Eigen::MatrixXd& draws) const {
-  Eigen::VectorXd offset =
-      Eigen::VectorXd::Constant(draws.cols(), std::numeric_limits<double>::quiet_NaN());
+  Eigen::VectorXd offset = Eigen::VectorXd::Constant(draws.cols(), base::kNotKnown);
   for (const Single& single : normals_) {
     const Single::Moments within = single.ScoreWithin();
     const double mean = draws.col(single.coordinate)
