@@ -132,7 +132,8 @@ void ValidateHeight(const Case& c, const Vessel& vessel, base::Problems& problem
       height <= kMostWidths * vessel.across, "powder.mass", c.powder.mass,
       "in kg, which stands " + base::ShortNumber(height) + " m high in a vessel of " +
           base::ShortNumber(1e3 * vessel.across) + " mm" +
-          (is_usual ? "; write \"" + base::ShortNumber(c.powder.mass) + " g\" for grams"
+          (is_usual ? "; write \"" + base::ShortNumber(c.powder.mass) +
+                          " g\" for grams, or give this test a mass or a vessel of its own"
                     : ": one of mass, density and vessel has another unit"));
 }
 

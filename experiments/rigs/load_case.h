@@ -11,7 +11,7 @@ namespace talus::rigs {
 
 // What the powder and the rig mean for the cost, before anything is simulated.
 struct CaseSize : PowderSize {
-  double filled_height = 0;   // of a loose filling [m]
+  double filled_height = 0;   // of the dense filling [m]
   double simulated_time = 0;  // expected, of all phases [s]
   double grain_time = 0;      // of all grains, each while it is simulated [s]
 };

@@ -15,17 +15,6 @@ constexpr double kRounding = 1e-9;  // of grains that are equally large
 
 bool IsNear(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); }
 
-// `sizes`, all of them so many times as large.
-engine::SizeDistribution Enlarged(engine::SizeDistribution sizes, double factor) {
-  using S = engine::SizeDistribution;
-  for (const auto length :
-       {&S::diameter, &S::mean, &S::standard_deviation, &S::median, &S::min, &S::max}) {
-    if (sizes.*length) *(sizes.*length) *= factor;
-  }
-  for (double& diameter : sizes.diameters) diameter *= factor;
-  return sizes;
-}
-
 // Whether two curves have one shape and size, at a few places.
 bool AreEqual(const engine::SizeDistribution& a, const engine::SizeDistribution& b) {
   const engine::SizeCurve first(a);
@@ -47,7 +36,8 @@ std::optional<double> ScaleFactorOf(const Case& there, const Case& here) {
   if (here.rig.kind == RigKind::kSpreading && !here.rig.spreading.gap) return std::nullopt;
   const double ratio = engine::SizeCurve(there.powder.sizes).VolumeQuantile(0.5) /
                        engine::SizeCurve(here.powder.sizes).VolumeQuantile(0.5);
-  if (!AreEqual(there.powder.sizes, Enlarged(here.powder.sizes, ratio))) return std::nullopt;
+  if (!AreEqual(there.powder.sizes, engine::Enlarged(here.powder.sizes, ratio)))
+    return std::nullopt;
   return ratio * there.coarse_graining.scale_factor;
 }
 
@@ -94,11 +84,13 @@ std::optional<std::string> RunDifference(const Case& there, const Case& here) {
   return "its grains are those of scale factor " + base::ShortNumber(*scale_factor, 6) + " here";
 }
 
-std::uint64_t CaseHash(const Case& rig_case) {
+std::string RunText(const Case& rig_case) {
   Case relevant = rig_case;
   relevant.threads = 1;
   relevant.checkpoint_interval = 0;
-  return base::Checksum(CaseText(relevant));
+  return CaseText(relevant);
 }
+
+std::uint64_t CaseHash(const Case& rig_case) { return base::Checksum(RunText(rig_case)); }
 
 }  // namespace talus::rigs

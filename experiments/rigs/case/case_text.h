@@ -20,8 +20,11 @@ std::optional<std::string> RunDifference(const Case& there, const Case& here);
 // Whether both give the same grains.
 inline bool IsSameRun(const Case& a, const Case& b) { return !RunDifference(a, b); }
 
-// Identifies a case in a checkpoint and in result.json: what does not change the grains (threads,
-// the checkpoint interval) is left out.
+// The same text for cases that differ in what does not change the grains: threads, the checkpoint
+// interval.
+std::string RunText(const Case& rig_case);
+
+// Identifies a case in a checkpoint and in result.json: of its RunText.
 std::uint64_t CaseHash(const Case& rig_case);
 
 }  // namespace talus::rigs

@@ -8,6 +8,7 @@
 #include "base/text/joined.h"
 #include "base/text/key_text.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 
 namespace talus::rigs {
 namespace {
@@ -51,7 +52,7 @@ std::string PressureText(double value) {
 std::string TurnText(double value) {
   constexpr std::size_t kRounder = 2;  // digits
   const std::string rpm = base::ShortNumber(30 / std::numbers::pi * value);
-  const std::string degrees = base::ShortNumber(180 / std::numbers::pi * value);
+  const std::string degrees = base::ShortNumber(value / base::kDegree);
   return rpm.size() > degrees.size() + kRounder ? degrees + " deg/s" : rpm + " rpm";
 }
 
@@ -66,7 +67,7 @@ std::string QuantityText(double value, base::Dimension dimension) {
     case base::Dimension::kAngularVelocity:
       return TurnText(value);
     case base::Dimension::kAngle:
-      return base::ShortNumber(180 / std::numbers::pi * value) + " deg";
+      return base::ShortNumber(value / base::kDegree) + " deg";
     case base::Dimension::kTime:
       return base::ShortNumber(value) + " s";
     case base::Dimension::kPressure:

@@ -102,11 +102,15 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
     for (std::size_t i = 0; i < grains.size(); ++i) {
       if (stands[i]) top = std::max(top, grains[i].position.z + grains[i].radius);
     }
-    const double runout = front - length / 2;
+    const double runout = std::max(0.0, front - length / 2);
     std::vector<Reading> all{{Observable::kRunout, runout},
                              {Observable::kHeight, top},
                              {Observable::kColumnHeight, state().bed.height},
                              {Observable::kAspectRatio, state().bed.height / length}};
+    if (!(runout > 0)) {
+      all.push_back({.observable = Observable::kAngle, .undefined = "the column stands"});
+      return all;
+    }
     // Between the foot of the end wall and the thin front.
     const double reach = front + length / 2;
     all.push_back(AngleOf(Observable::kAngle, SurfaceOf(grains, {.from = -length / 2 + 0.2 * reach,

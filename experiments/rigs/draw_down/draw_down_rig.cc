@@ -10,6 +10,7 @@
 #include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/phased/gate.h"
+#include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
@@ -19,6 +20,7 @@ namespace {
 constexpr int kLeftShelf = 1;  // indices of the walls
 constexpr int kRightShelf = 2;
 constexpr int kLowerFloor = 3;
+constexpr const char* kNoFlow = "less than a tenth ran through the slot";
 
 class DrawDownRig : public RememberingRig<FlowMemory> {
  public:
@@ -100,30 +102,38 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const DrawDownOptions& box = rig_case().rig.draw_down;
     const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
-    const std::vector<bool> hangs =
-        ContactSets(grains, contacts).Hanging({kLeftShelf, kRightShelf}, kLowerFloor);
-    // Both halves are one, seen at |x|. What hangs under a shelf has not fallen, and is no slope.
-    std::vector<engine::Particle> above, below;
+    const ContactSets sets(grains, contacts);
+    const std::vector<bool> hangs = sets.Hanging({kLeftShelf, kRightShelf}, kLowerFloor);
+    std::vector<bool> lies = sets.Reaching(kLowerFloor);
+    AddLanding(grains, box.length / 2, lies);
+    // Both halves are one, seen at |x|. What hangs under a shelf has not fallen, and is no slope;
+    // what still falls has, but is none of the heap.
+    std::vector<engine::Particle> above, below, heap;
     for (std::size_t i = 0; i < grains.size(); ++i) {
       engine::Particle p = grains[i];
       p.position.x = std::abs(p.position.x);
       if (p.position.z >= box.height) {
         above.push_back(p);
-      } else if (!hangs[i]) {
-        below.push_back(p);
+        continue;
       }
+      if (!hangs[i]) below.push_back(p);
+      if (!hangs[i] && lies[i]) heap.push_back(p);
     }
     const double passed = MassOf(below);
     std::vector<Reading> all{{Observable::kMassFallen, passed},
-                             {Observable::kMassLeft, FilledMass() - passed}};
-    for (Reading& reading : FlowReadings(memory().flow, passed, FilledMass(),
-                                         "less than a tenth ran through the slot")) {
+                             {Observable::kMassLeft, MassLeft(FilledMass(), passed)}};
+    for (Reading& reading : FlowReadings(memory().flow, passed, FilledMass(), kNoFlow)) {
       all.push_back(std::move(reading));
     }
-    const double foot = MassQuantile(below, 0.98, [](const auto& p) { return p.position.x; });
+    if (!HasFlowed(passed, FilledMass())) {
+      all.push_back({.observable = Observable::kAngle, .undefined = kNoFlow});
+      all.push_back({.observable = Observable::kShearAngle, .undefined = kNoFlow});
+      return all;
+    }
+    const double foot = MassQuantile(heap, 0.98, [](const auto& p) { return p.position.x; });
     all.push_back(
         AngleOf(Observable::kAngle,
-                SurfaceOf(below, {.from = 0.2 * foot, .to = 0.8 * foot, .width = MeanDiameter()})));
+                SurfaceOf(heap, {.from = 0.2 * foot, .to = 0.8 * foot, .width = MeanDiameter()})));
     all.push_back(AngleOf(
         Observable::kShearAngle,
         SurfaceOf(above, {.from = box.slot / 2, .to = box.length / 2, .width = MeanDiameter()})));

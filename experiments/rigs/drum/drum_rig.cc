@@ -24,13 +24,16 @@ constexpr double kBoxWidth = 1.2;   // of the box that is filled, in radii
 constexpr double kBoxFloor = 0.2;   // its floor above the lowest point, in radii
 constexpr double kBoxHeight = 1.6;  // in radii
 constexpr double kStill = 0.01;     // grain diameters that nobody sees move
+constexpr double kLump = 0.5;       // of the drum's turns, made by the centre of mass
 
 struct DrumMemory {
   std::vector<double> angles{};  // of the surface at each look [deg]
   int num_carried = 0;           // looks at which powder hangs from the shell in its place
+  int num_looks = 0;
+  double turned = 0;  // turning of the centre of mass over the drum's, summed over looks
 
   static constexpr base::FieldKey kKeys[] = {{"angles", "angles_deg"}};
-  TALUS_FIELDS(angles, num_carried);
+  TALUS_FIELDS(angles, num_carried, num_looks, turned);
 };
 
 class DrumRig : public RememberingRig<DrumMemory> {
@@ -122,6 +125,8 @@ class DrumRig : public RememberingRig<DrumMemory> {
   std::optional<PhaseEnd> Look() override {
     if (phase_name() != "turning") return std::nullopt;
     const std::vector<engine::Particle>& grains = view().particles;
+    ++memory().num_looks;
+    memory().turned += TurningOfBed(grains);
     const auto along = [](const auto& p) { return p.position.x; };
     const double low = MassQuantile(grains, 0.02, along);
     const double high = MassQuantile(grains, 0.98, along);
@@ -148,11 +153,39 @@ class DrumRig : public RememberingRig<DrumMemory> {
       angle.undefined = spread.undefined = "the surface has too few grains across";
       return {angle, spread};
     }
+    if (IsLump()) {
+      angle.undefined = spread.undefined = "the powder turns with the drum as one lump";
+      return {angle, spread};
+    }
     const base::Sample sample = base::SampleOf(angles);
     return {{Observable::kAngle, sample.mean}, {Observable::kAngleSd, sample.Sd()}};
   }
 
  private:
+  // Between two avalanches a powder turns with its drum, too, but not as far as this.
+  bool IsLump() const {
+    constexpr double kBeyondAvalanches = 1.0 / 6;  // of a turn
+    return rig_case().rig.drum.turns >= kBeyondAvalanches &&
+           memory().turned > kLump * memory().num_looks;
+  }
+
+  // How fast the centre of mass goes round the axis, over the drum's speed: on average nothing
+  // where powder flows back, 1 where the drum takes it along.
+  double TurningOfBed(GrainSpan grains) const {
+    const DrumOptions& drum = rig_case().rig.drum;
+    double mass = 0, x = 0, z = 0, vx = 0, vz = 0;
+    for (const engine::Particle& p : grains) {
+      const double m = MassOf({&p, 1});
+      mass += m;
+      x += m * p.position.x;
+      z += m * (p.position.z - drum.diameter / 2);
+      vx += m * p.velocity.x;
+      vz += m * p.velocity.z;
+    }
+    const double square = x * x + z * z;
+    return square > 0 ? (z * vx - x * vz) / square / drum.speed : 0;
+  }
+
   // Whether most of what is highest lies at the upper half of the shell, within a grain. A powder
   // that flows is there in none of the middle half's strips, one that clings in nearly all.
   bool HangsFromShell(const std::vector<SurfacePoint>& surface) const {

@@ -1,6 +1,7 @@
 #include "experiments/rigs/filling/vessel.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -40,6 +41,14 @@ engine::Filling FillDensely(const Case& c, const engine::FillRegion& region, std
   }
   filling.positions.clear();
   return filling;
+}
+
+// Depth of a drum's bed under a flat surface [m]: a chord that is h deep in a circle of radius R
+// cuts off (4/3) h √(2 R h), as long as h is much below R.
+double DepthInDrum(const Case& c) {
+  const double radius = c.rig.drum.diameter / 2;
+  const double area = FillOf(c).value_or(0) * std::numbers::pi * radius * radius;
+  return std::pow(0.75 * area / std::sqrt(2 * radius), 2.0 / 3);
 }
 
 }  // namespace
@@ -92,6 +101,18 @@ FilledScene FillVessel(const Case& c, const Vessel& vessel) {
 double FilledHeight(const Case& c, const Vessel& vessel) {
   constexpr double kSettled = 0.55;  // solid fraction of the filling
   return c.powder.mass / c.powder.material.density / (kSettled * vessel.area);
+}
+
+std::string ShallowWarning(const Case& c, const Vessel& vessel) {
+  constexpr double kFewestDeep = 4;  // mean grains
+  constexpr RigKind kDeep[] = {RigKind::kDrum, RigKind::kDrawDown, RigKind::kColumnCollapse,
+                               RigKind::kOrificeFlow, RigKind::kTappedDensity};
+  if (std::ranges::find(kDeep, c.rig.kind) == std::end(kDeep)) return "";
+  const double height = c.rig.kind == RigKind::kDrum ? DepthInDrum(c) : FilledHeight(c, vessel);
+  const double deep = height / EstimatePowder(c).mean_diameter;
+  if (deep >= kFewestDeep) return "";
+  return "the bed is only " + base::ShortNumber(deep, 2) +
+         " grains deep: single grains decide; fill in more powder or take a smaller vessel";
 }
 
 }  // namespace talus::rigs

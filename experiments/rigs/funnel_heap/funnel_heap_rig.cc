@@ -12,6 +12,7 @@
 #include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rig_entry.h"
+#include "experiments/rigs/phased/spheres.h"
 
 namespace talus::rigs {
 namespace {
@@ -90,7 +91,7 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   static double TestTime(const Case&, double) { return kRestTime; }  // the test is its filling
 
-  // what lies on the plate or is about to, the layer below the rim's top included
+  // What lies on the plate or is about to land there, the layer below the rim's top included.
   std::vector<engine::Particle> Grains() const override {
     std::vector<engine::Particle> heap =
         HeapOn(simulation(), kFunnelPlate, rig_case().rig.funnel_heap.plate_diameter / 2);
@@ -112,11 +113,9 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
 
   std::vector<Reading> Readings(GrainSpan heap) const override {
     const double falling = MassOf(simulation().Particles()) - MassOf(heap);
-    double height = 0;
-    for (const engine::Particle& p : heap) height = std::max(height, p.position.z + p.radius);
     std::vector<Reading> all{{Observable::kMassOnPlate, MassOf(heap)},
                              {Observable::kMassFallen, memory().mass_fallen + falling},
-                             {Observable::kHeight, height}};
+                             {Observable::kHeight, TopOf(heap)}};
     for (Reading& angle :
          ReposeReadings(heap, {.diameter = rig_case().rig.funnel_heap.plate_diameter,
                               .grain_diameter = MeanDiameter()})) {

@@ -6,16 +6,21 @@
 #include <utility>
 #include <variant>
 
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
 #include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rest.h"
+#include "experiments/rigs/phased/spheres.h"
 
 namespace talus::rigs {
 namespace {
+
+constexpr double kMuchCarried = 0.01;  // of the powder, left with the tube
 
 using engine::Particle;
 using engine::Vec3;
@@ -168,13 +173,11 @@ std::vector<Reading> LiftedTubeRig::Readings(GrainSpan heap) const {
   const double falling = MassOf(present) - on_plate;  // what is neither of the heap nor gone
   const auto num_falling = static_cast<double>(present.size() - heap.size());
   const double true_grains = std::pow(rig_case().coarse_graining.scale_factor, 3);  // in one
-  double height = 0;
-  for (const Particle& p : heap) height = std::max(height, p.position.z + p.radius);
   std::vector<Reading> all{{Observable::kMassOnPlate, on_plate},
                            {Observable::kMassFallen, memory().mass_fallen + falling},
                            {Observable::kNumFallen,
                             true_grains * (static_cast<double>(memory().num_fallen) + num_falling)},
-                           {Observable::kHeight, height},
+                           {Observable::kHeight, TopOf(heap)},
                            {Observable::kBulkDensity, density * state().bed.solid_fraction}};
   for (Reading& angle : ReposeReadings(heap, {.diameter = rig_case().rig.lifted_tube.plate_diameter,
                                              .grain_diameter = MeanDiameter()})) {
@@ -201,6 +204,13 @@ Rig::Numbers LiftedTubeRig::Conditions() const {
 std::vector<std::string> LiftedTubeRig::Warnings(GrainSpan heap) const {
   std::vector<std::string> warnings;
   if (heap.empty()) warnings.push_back("nothing is left on the plate");
+  const double carried = memory().mass_carried / FilledMass();
+  if (carried > kMuchCarried) {
+    warnings.push_back(
+        base::InPercent(carried) + " % of the powder (" +
+        base::Counted(memory().num_carried, "grain") +
+        ") stuck in the tube and left with it: it is neither on the plate nor fallen");
+  }
   const auto length = rig_case().rig.lifted_tube.tube_length;
   if (length && state().bed.height > *length) {
     warnings.push_back("the bed, " + base::ShortNumber(1e3 * state().bed.height) +

@@ -1,6 +1,6 @@
 #include "experiments/rigs/observables/observable.h"
 
-#include <numbers>
+#include "base/units.h"
 
 namespace talus::rigs {
 namespace {
@@ -33,7 +33,7 @@ MetricUnit MetricUnitOf(base::Dimension dimension) {
     case base::Dimension::kPressure:
       return {"_pa", "Pa"};
     case base::Dimension::kAngle:
-      return {"_deg", "deg", 180 / std::numbers::pi};
+      return {"_deg", "deg", 1 / base::kDegree};
     default:
       return {};
   }

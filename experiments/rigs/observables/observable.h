@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/not_known.h"
 #include "base/units.h"
 
 namespace talus::rigs {
@@ -324,8 +325,8 @@ Bounds BoundsOf(std::string_view metric);
 // A number that a run has given.
 struct Reading {
   Observable observable;
-  double value = std::numeric_limits<double>::quiet_NaN();  // in the metric's unit
-  std::string undefined{};                                  // why it has no value; else empty
+  double value = base::kNotKnown;  // in the metric's unit
+  std::string undefined{};         // why it has no value; else empty
 };
 
 // A rig's observable; the usual ones are what `next` expects to be measured.

@@ -131,12 +131,12 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
         FlowReadings(memory().flow, passed, filled, "an arch stands above the orifice");
     all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
     all.push_back({Observable::kMassFallen, passed});
-    all.push_back({Observable::kMassLeft, std::max(0.0, filled - passed)});
+    all.push_back({Observable::kMassLeft, MassLeft(filled, passed)});
     return all;
   }
 
  private:
-  // the orifice, or gone [kg]
+  // What is below the orifice, or gone [kg].
   double MassBelow(GrainSpan grains) const {
     double mass = memory().mass_gone;
     for (const engine::Particle& p : grains) {

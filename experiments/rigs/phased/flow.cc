@@ -34,6 +34,11 @@ bool HasFlowed(double passed, double filled) {
   return passed > kFlowing * filled;
 }
 
+double MassLeft(double filled, double passed) {
+  const double left = filled - passed;
+  return left > 1e-9 * filled ? left : 0;
+}
+
 std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, double filled,
                                   const std::string& none) {
   Reading time{Observable::kDischargeTime};

@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "base/not_known.h"
 #include "base/sphere.h"
 
 namespace talus::rigs {
@@ -102,7 +102,7 @@ void LogHistogram::Add(double value, double weight) {
 double LogHistogram::Quantile(double share) const {
   double total = 0;
   for (const double w : weights) total += w;
-  if (!(total > 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(total > 0)) return base::kNotKnown;
   double below = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (below + weights[i] >= share * total && weights[i] > 0) {
@@ -111,7 +111,7 @@ double LogHistogram::Quantile(double share) const {
     }
     below += weights[i];
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return base::kNotKnown;
 }
 
 void LookAtFlow(const FlowingGrains& grains, RegimeMemory& memory) {

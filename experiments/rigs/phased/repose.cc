@@ -59,8 +59,11 @@ std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
   for (const auto& [observable, name] : kMethods) {
     readings.push_back(ReadingOf(observable, imaging::FindMetric(metrics, name)));
     const bool is_angle = observable != Observable::kStaticCohesiveIndex;
-    if (!is_angle || heap.empty() || top > kLowest * plate.grain_diameter) continue;
-    readings.back() = {.observable = observable, .undefined = "the heap is one grain high"};
+    if (!heap.empty() && !(top > 0)) {
+      readings.back() = {.observable = observable, .undefined = "nothing stands above the rim"};
+    } else if (is_angle && !heap.empty() && top <= kLowest * plate.grain_diameter) {
+      readings.back() = {.observable = observable, .undefined = "the heap is one grain high"};
+    }
   }
   return readings;
 }

@@ -12,6 +12,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/phased/rig.h"
 
@@ -66,10 +67,17 @@ std::vector<std::string> LateTimes(const std::vector<double>& times, double end)
 }
 
 ordered_json CommonConditions(const Case& c, const engine::Simulation& simulation) {
-  const engine::Material used = UsedMaterial(c);
+  // Between two grains, a pair of them counted.
+  const auto between_grains = [](const Case& sized) {
+    return engine::With(UsedMaterial(sized), engine::StatedOf(PairsOf(sized), kPowder, kPowder));
+  };
+  Case true_size = c;
+  true_size.coarse_graining = {};
+  const engine::Material given = between_grains(true_size);
+  const engine::Material used = between_grains(c);
   return {{"scale_factor", c.coarse_graining.scale_factor},
           {"surface_energy_exponent", c.coarse_graining.surface_energy_exponent},
-          {"surface_energy_J_per_m2", c.powder.material.surface_energy},
+          {"surface_energy_J_per_m2", given.surface_energy},
           {"surface_energy_used_J_per_m2", used.surface_energy},
           {"youngs_modulus_Pa", used.youngs_modulus},
           {"rayleigh_fraction", c.rayleigh_fraction},
@@ -156,6 +164,9 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
                       {"particle_steps", state_.particle_steps},
                       {"threads", case_.threads}};
   std::vector<std::string> warnings = CaseWarnings(case_);
+  if (std::string shallow = ShallowWarning(case_, vessel_); !shallow.empty()) {
+    warnings.push_back(std::move(shallow));
+  }
   for (std::string& text : CapWarnings(state_, phases_)) warnings.push_back(std::move(text));
   for (std::string& text : Warnings(grains)) warnings.push_back(std::move(text));
   for (std::string& text : LateTimes(case_.outputs.times, simulation_.time())) {

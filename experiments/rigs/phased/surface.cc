@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include "base/line_fit.h"
+#include "base/units.h"
 
 namespace talus::rigs {
 
@@ -32,19 +34,9 @@ std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
 
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface) {
   if (surface.size() < 3) return std::nullopt;
-  double x = 0;
-  double top = 0;
-  for (const SurfacePoint& p : surface) {
-    x += p.x / static_cast<double>(surface.size());
-    top += p.top / static_cast<double>(surface.size());
-  }
-  double xx = 0;
-  double xz = 0;
-  for (const SurfacePoint& p : surface) {
-    xx += (p.x - x) * (p.x - x);
-    xz += (p.x - x) * (p.top - top);
-  }
-  return xz / xx;
+  base::LineFit fit;
+  for (const SurfacePoint& p : surface) fit.Add(p.x, p.top);
+  return fit.Slope();
 }
 
 Reading AngleOf(Observable observable, std::span<const SurfacePoint> surface) {
@@ -74,6 +66,6 @@ double MassQuantile(std::span<const engine::Particle> grains, double share,
   return 0;
 }
 
-double SlopeAngle(double slope) { return std::atan(slope) * 180 / std::numbers::pi; }
+double SlopeAngle(double slope) { return std::atan(slope) / base::kDegree; }
 
 }  // namespace talus::rigs

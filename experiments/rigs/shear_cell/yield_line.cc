@@ -1,22 +1,15 @@
 #include "experiments/rigs/shear_cell/yield_line.h"
 
+#include "base/line_fit.h"
+
 namespace talus::rigs {
 
 std::optional<YieldLine> YieldLineOf(std::span<const StressPoint> points) {
-  StressPoint mean;
-  for (const StressPoint& p : points) {
-    mean.normal += p.normal / static_cast<double>(points.size());
-    mean.shear += p.shear / static_cast<double>(points.size());
-  }
-  double square = 0;
-  double product = 0;
-  for (const StressPoint& p : points) {
-    square += (p.normal - mean.normal) * (p.normal - mean.normal);
-    product += (p.normal - mean.normal) * (p.shear - mean.shear);
-  }
-  if (!(square > 0)) return std::nullopt;
-  const double slope = product / square;
-  return YieldLine{.cohesion = mean.shear - slope * mean.normal, .slope = slope};
+  base::LineFit fit;
+  for (const StressPoint& p : points) fit.Add(p.normal, p.shear);
+  if (!fit.IsDetermined()) return std::nullopt;
+  const base::StraightLine line = fit.Line();
+  return YieldLine{.cohesion = line.at_zero, .slope = line.slope};
 }
 
 }  // namespace talus::rigs

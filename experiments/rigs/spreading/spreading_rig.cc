@@ -164,7 +164,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
     WeighOut(above, struck_off);
   }
 
-  // without the bed's
+  // The grains that are no part of the bed.
   std::vector<engine::Particle> Heap(GrainSpan grains) const {
     std::vector<engine::Particle> heap;
     for (const engine::Particle& p : grains) {
@@ -202,7 +202,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
     return {Observable::kSizeDrift, (moment[2] / volume[2]) / (moment[0] / volume[0])};
   }
 
-  // of the spreader [kg]
+  // What lies ahead of the spreader [kg].
   double MassAhead(GrainSpan grains) const {
     double mass = 0;
     for (const engine::Particle& p : grains) {

@@ -1,6 +1,6 @@
 // The angle at which the load of a tilted box slides: gravity turns, which to the grains is the
 // same as long as it is slow. x points down the slope. It has slid when its centre of mass has
-// moved half a grain along it.
+// moved half a grain along it; the angle is that of the moment when it let go.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/gate.h"
@@ -20,11 +21,9 @@ namespace {
 
 constexpr double kSlid = 0.5;  // mean diameters
 
-double Degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
 struct TiltingBoxMemory {
   double start_centre = 0;  // x of the centre of mass when the tilting begins [m]
-  double angle = 0;         // at which the load slid; 0 before [rad]
+  double angle = 0;         // at which the load let go; 0 before [rad]
   double mass_left = 0;     // over the lip [kg]
 
   static constexpr base::FieldKey kKeys[] = {
@@ -108,18 +107,19 @@ class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {
     const double beyond = box.length / 2 + 2 * simulation().LargestRadius();
     WeighOut([&](const engine::Particle& p) { return p.position.x > beyond; }, memory().mass_left);
     if (phase_name() != "tilting") return std::nullopt;
-    const bool slid = Centre() - memory().start_centre > kSlid * MeanDiameter();
-    if (!slid) return std::nullopt;
-    memory().angle = box.rate * (simulation().time() - phase_start());
+    const double slid = Centre() - memory().start_centre;
+    if (!(slid > kSlid * MeanDiameter())) return std::nullopt;
+    const double angle = box.rate * (simulation().time() - phase_start());
+    memory().angle = std::max(angle - LagOf(slid, angle), 1e-9);  // 0: nothing has slid
     return PhaseEnd::kDone;
   }
 
   std::vector<Reading> Readings(GrainSpan) const override {
     const double angle = memory().angle;
-    const double largest = Degrees(rig_case().rig.tilting_box.largest_angle);
+    const double largest = rig_case().rig.tilting_box.largest_angle / base::kDegree;
     Reading slid{Observable::kAngle};
     if (angle > 0) {
-      slid.value = Degrees(angle);
+      slid.value = angle / base::kDegree;
     } else {
       slid.undefined = "nothing slid up to " + std::to_string(std::lround(largest)) + " deg";
     }
@@ -127,13 +127,21 @@ class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {
   }
 
  private:
+  // By how much the box turns on from where the powder lets go until it has slid so far [rad]: what
+  // lets go at φ is accelerated by g sin(θ - φ)/cos φ, which is g ω t/cos φ at first, and slides
+  // s = g ω t³/(6 cos φ). It goes with the third root of the grains' size.
+  double LagOf(double slid, double angle) const {
+    const double rate = rig_case().rig.tilting_box.rate;
+    return rate * std::cbrt(6 * slid * std::cos(angle) / (rig_case().gravity * rate));
+  }
+
   void Tilt() {
     memory().start_centre = Centre();
     const double rate = rig_case().rig.tilting_box.rate;
     scene().SetGravityTurns({{.time = scene().time(), .angular_velocity = {0, -rate, 0}}});
   }
 
-  // of all grains along x, those that have left at the lip [m]
+  // Centre of mass of all grains along x, those that have left counted at the lip [m].
   double Centre() const {
     const double left = memory().mass_left;
     double mass = left;

@@ -191,6 +191,11 @@ TEST(HeapScene, TakesAShorterStepWhereRollingDampingNeedsIt) {
   const double fraction = StepFraction(c);
   EXPECT_LT(fraction, 0.5 * kUsualRayleighFraction);
   EXPECT_THAT(SetUpWarnings(c), Contains(HasSubstr("rolling dashpot")));
+  Case stiff = c;
+  stiff.powder.material.rolling_friction = 5;
+  stiff.powder.material.rolling_damping = 0.05;
+  EXPECT_LT(StepFraction(stiff), 0.75 * kUsualRayleighFraction);
+  EXPECT_THAT(SetUpWarnings(stiff), Contains(HasSubstr("a smaller rolling_friction takes fewer")));
   EXPECT_EQ(FillTube(c).scene.rayleigh_fraction, fraction);
   const double radius =
       c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).smallest() / 2;

@@ -50,5 +50,16 @@ TEST(ColumnCollapse, ASlowGateIsWaitedFor) {
   for (const engine::Particle& p : sticky->simulation().Particles()) EXPECT_LT(p.position.z, 0.02);
 }
 
+// The place of the front's centres is a radius short of the gate: no negative runout.
+TEST(ColumnCollapse, AColumnThatStandsHasRunOutByNothingAndHasNoAngle) {
+  Case c = Collapse(0.45e-3);
+  c.models.adhesion = engine::Adhesion::kDmt;
+  c.powder.material.surface_energy = 0.5;
+  const auto rig = Ran(c);
+  EXPECT_EQ(Value(c, *rig, "runout_m"), 0);
+  const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
+  EXPECT_EQ(result["undefined"]["angle_deg"], "the column stands");
+}
+
 }  // namespace column_collapse_test
 }  // namespace talus::rigs

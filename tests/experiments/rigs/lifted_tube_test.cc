@@ -143,6 +143,9 @@ TEST(LiftedTube, WhatSticksToTheTubeIsCarriedAwayAndCounted) {
   c.materials.floor = WallMaterial{.surface_energy = 0};
   const Outcome sticky = RunToTheEnd(c);
   EXPECT_GT(sticky.Count("carried_by_tube"), sticky.Count("filled") / 2);
+  const auto result = nlohmann::json::parse(sticky.rig->ResultText(sticky.rig->Grains(), {}));
+  EXPECT_THAT(result["warnings"].dump(),
+              ::testing::HasSubstr("stuck in the tube and left with it"));
   EXPECT_EQ(sticky.EndOf("lifting"), PhaseEnd::kCleared);
 }
 
@@ -163,6 +166,9 @@ TEST(LiftedTube, WhatTheTubeCarriesIsWeighed) {
   const double filled = FilledVolume(c, run.rig->state().num_filled) * 2500;
   ASSERT_GT(memory.num_carried, 0);
   EXPECT_NEAR(on_plate + fallen + memory.mass_carried, filled, 1e-9 * filled);
+  const auto result = nlohmann::json::parse(run.rig->ResultText(run.rig->Grains(), {}));
+  const bool is_much = memory.mass_carried > 0.01 * filled;
+  EXPECT_EQ(result["warnings"].dump().find("left with it") != std::string::npos, is_much);
   EXPECT_LT(memory.mass_carried / static_cast<double>(memory.num_carried),
             filled / static_cast<double>(run.rig->state().num_filled));
 }

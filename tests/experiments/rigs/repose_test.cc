@@ -55,6 +55,19 @@ TEST(Repose, OfAConeEveryMethodIsItsAngle) {
   }
 }
 
+// It was "one grain high", and its index "the heap is empty".
+TEST(Repose, OfALayerThatDoesNotFillTheRimNothingIsRead) {
+  std::vector<engine::Particle> layer(3);
+  for (engine::Particle& grain : layer) {
+    grain.position = {0, 0, -2 * kGrain};
+    grain.radius = kGrain / 2;
+  }
+  for (const Reading& reading :
+       ReposeReadings(layer, {.diameter = kPlate, .grain_diameter = kGrain})) {
+    EXPECT_EQ(reading.undefined, "nothing stands above the rim") << MetricName(reading.observable);
+  }
+}
+
 // A few grains that stayed on the plate had one of 72°.
 TEST(Repose, ALayerOfSingleGrainsHasNoAngle) {
   std::vector<engine::Particle> layer;
