@@ -79,6 +79,10 @@ def _taken_again(spec):
     grains = spec.get("coarse_graining", {})
     if "scale_factors" in grains:
         grains.pop("scale_factor", None)
+    spec.get("engine", {}).pop("templates_hash", None)  # filled in when a campaign begins
+    for parameter in spec.get("parameters", {}).values():
+        if isinstance(parameter, dict):
+            parameter.pop("added_at", None)  # and when a parameter is added
     return spec
 
 
@@ -352,7 +356,8 @@ class Campaign:
             return [(name, "", "") for name in self.parameters]
         return [(p["name"], f"{p['value']:.4g} {p['unit']}".strip(),
                  "" if p["credible_90_low"] is None else
-                 f"{p['credible_90_low']:.3g} to {p['credible_90_high']:.3g}") for p in result["parameters"]]
+                 f"{p['credible_90_low']:.3g} to {p['credible_90_high']:.3g}" +
+                 (" by itself, not asked for" if p.get("nuisance") else "")) for p in result["parameters"]]
 
     def _said(self):
         result = self.result
