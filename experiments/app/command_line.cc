@@ -87,16 +87,20 @@ double BudgetTime(const std::string& text) {
   throw base::ConfigError("--budget: must be positive, such as \"2 min\", not \"" + text + "\"");
 }
 
+std::pair<std::string, std::string> ReadAssignment(const std::string& text,
+                                                   const std::string& example) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw base::ConfigError("\"" + text + "\": must be NAME=VALUE, as " + example);
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 std::map<std::string, std::string> ReadSetArgument(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> set;
   for (const std::string& text : texts) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw base::ConfigError("\"" + text + "\": must be NAME=VALUE, as sliding_friction=0.45");
-    }
-    if (!set.emplace(text.substr(0, equals), text.substr(equals + 1)).second) {
-      throw base::ConfigError(text.substr(0, equals) + ": is given twice");
-    }
+    const auto [name, value] = ReadAssignment(text, "sliding_friction=0.45");
+    if (!set.emplace(name, value).second) throw base::ConfigError(name + ": is given twice");
   }
   return set;
 }

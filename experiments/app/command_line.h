@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
@@ -27,6 +28,10 @@ double FlagQuantity(const std::string& flag, const std::string& text, base::Dime
 
 // The core time that is typed after --budget [s]; throws base::ConfigError unless it is positive.
 double BudgetTime(const std::string& text);
+
+// NAME=VALUE in its two parts. Throws base::ConfigError, which shows `example`, for another form.
+std::pair<std::string, std::string> ReadAssignment(const std::string& text,
+                                                   const std::string& example);
 
 // NAME=VALUE… as a parameter set. Throws base::ConfigError for another form, and for a name that is
 // given twice.

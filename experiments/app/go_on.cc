@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/duration_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/campaign_goal.h"
@@ -24,7 +25,6 @@
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::app {
 namespace {
@@ -49,7 +49,11 @@ Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOpt
                   const TellOptions& tell) {
   const base::InterruptGuard interrupt;
   campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
-  campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
+  // A goal that cannot be looked at is refused before anything of the campaign is changed.
+  const auto check = [&](const campaign::CampaignSpec& spec, const journal::CampaignRecord&) {
+    GoalOf(spec, std::filesystem::absolute(folder));
+  };
+  campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console, check);
   campaign::CampaignParts parts = campaign::MakeParts(opened.spec, opened.folder.root);
   parts.goal = GoalOf(opened.spec, opened.folder.root);
   parts.engine_is_new = opened.engine_is_new;
@@ -88,7 +92,7 @@ void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const 
   analysis::AdviceRequest request{
       .simulate = true, .core_time = ended.spec.next.share * ended.answer->cost.core_hours * 3600};
   if (!tell.quiet && !tell.json) {
-    std::cerr << "looks into further tests for at most " << trials::DurationText(*request.core_time)
+    std::cerr << "looks into further tests for at most " << base::DurationText(*request.core_time)
               << " of core time (the spec's next.share)" << std::endl;
     request.say = [](const std::string& text) { std::cerr << text << std::endl; };
   }
@@ -108,9 +112,9 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
   const double takes = analysis::FirstCoreTime(view, options);
   const double allowed = share * campaign::CoreTime(view.spec).OfSearch(view.trials);
   if (takes > allowed) {
-    const std::string why = "not simulated, as it takes " + trials::DurationText(takes) +
+    const std::string why = "not simulated, as it takes " + base::DurationText(takes) +
                             " of processor time and the spec allows " +
-                            trials::DurationText(allowed) + ": talus sensitivity " +
+                            base::DurationText(allowed) + ": talus sensitivity " +
                             base::ShellWord(folder.string());
     if (tell.json) {
       PrintEvent("message", "text", base::JsonText(nlohmann::ordered_json("sensitivity " + why)));

@@ -2,6 +2,7 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -34,11 +35,11 @@ struct SensitivityArguments {
 std::vector<std::pair<std::string, std::string>> ReadMoves(const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, std::string>> moves;
   for (const std::string& text : texts) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw base::ConfigError("\"" + text + "\": must be NAME=VALUE, as restitution=0.6");
+    auto move = ReadAssignment(text, "restitution=0.6");
+    if (std::ranges::find(moves, move) != moves.end()) {
+      throw base::ConfigError(text + ": is given twice");
     }
-    moves.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    moves.push_back(std::move(move));
   }
   return moves;
 }

@@ -11,6 +11,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
@@ -27,12 +28,13 @@
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/filling/vessel.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/shown_number.h"
+#include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/optimize/evaluator.h"
 #include "experiments/trials/optimize/optimize_problem.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "optimizer/space/candidate_table.h"
 
 namespace talus::app {
@@ -102,6 +104,11 @@ void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
   std::cout << ' ' << AimText(spec) << '\n';
 }
 
+void PrintShallow(const rigs::Case& rig_case, const std::string& where) {
+  const std::string text = rigs::ShallowWarning(rig_case, rigs::EntryOf(rig_case).vessel(rig_case));
+  if (!text.empty()) std::cout << "  warning: " << where << text << '\n';
+}
+
 // Photographs that are not there yet need not keep the cost from being planned.
 journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
                                        const base::JsonFile& file) {
@@ -122,13 +129,16 @@ void PrintEngine(const trials::CommandOptions& engine) {
 // How long a trial of another engine takes only a trial tells.
 void PrintForeignCost(const campaign::CampaignSpec& spec) {
   std::cout << "  cost              ";
-  if (spec.budget.simulations > 0) {
+  const bool by_number = spec.budget.simulations > 0;
+  if (by_number) {
     std::cout << base::Counted(spec.budget.simulations, "simulation") << " and at most "
               << campaign::MostConfirming(spec) << " to confirm";
-  } else {
-    std::cout << trials::DurationText(spec.budget.core_time.value_or(0)) << " of core time";
   }
-  std::cout << ", a trial at most " << trials::DurationText(spec.trial_time_cap)
+  if (spec.budget.core_time) {
+    std::cout << (by_number ? ", or " : "") << base::DurationText(*spec.budget.core_time)
+              << " of core time" << (by_number ? ", whichever is spent first" : "");
+  }
+  std::cout << ", a trial at most " << base::DurationText(spec.trial_time_cap)
             << " (trial_time_cap); how long one takes is not known before one has run\n";
 }
 
@@ -139,7 +149,7 @@ void WarnOfMinutes(const campaign::CampaignSpec& spec) {
   const double limit = spec.runner.slurm.time.value_or(spec.trial_time_cap);
   const double minutes = std::ceil(limit / kMinute);
   if (!(limit > 0) || minutes * kMinute == limit) return;
-  std::cout << "  warning: the limit of a trial, " << trials::DurationText(limit) << ", is "
+  std::cout << "  warning: the limit of a trial, " << base::DurationText(limit) << ", is "
             << base::ShortNumber(minutes) << " min on Slurm, which counts in whole minutes\n";
 }
 
@@ -182,6 +192,7 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
            factor == finest ? rigs::CaseWarnings(rig_case) : rigs::SetUpWarnings(rig_case)) {
         std::cout << "  warning: " << At(experiments[e].name, factor) << warning << '\n';
       }
+      if (factor == finest) PrintShallow(rig_case, At(experiments[e].name, factor));
     }
   }
 }
@@ -191,10 +202,11 @@ void ValidateHeap(const base::JsonFile& file, bool) {
   const campaign::RunEstimate run = campaign::EstimateRun(rig_case);
   std::cout << file.path.string() << ": is a case in order\n  rig               "
             << rigs::DeviceText(rig_case.rig) << "\n  simulation        " << campaign::RunText(run)
-            << ", about " << trials::DurationText(run.core_seconds) << " of a core\n";
+            << ", about " << base::DurationText(run.core_seconds) << " of a core\n";
   for (const std::string& warning : rigs::CaseWarnings(rig_case)) {
     std::cout << "  warning: " << warning << '\n';
   }
+  PrintShallow(rig_case, "");
 }
 
 void ValidateScene(const base::JsonFile& file, bool) {

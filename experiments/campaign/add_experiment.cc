@@ -90,36 +90,43 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
     throw base::ConfigError("--core-time: must be positive");
   }
   const auto experiment = ReadExperiment(file);
-  OpenedCampaign opened = OpenCampaign(folder, {}, console, [&](const CampaignSpec& before) {
+  CampaignSpec spec;
+  journal::CampaignRecord record;
+  std::vector<Reference> references;
+  std::unique_ptr<trials::TrialEngine> engine;
+  const auto check = [&](const CampaignSpec& before, const journal::CampaignRecord& campaign) {
     RequireSeveral(before, folder);
     RequireNew(before, experiment.name, folder);
     Check(before, experiment, file);
-  });
-  CampaignSpec spec = SpecWith(opened.spec, experiment);
+    spec = SpecWith(before, experiment);
+    SetDrumDiameters(spec);
+    SetDrumFills(spec);
+    record = campaign;
+    record.experiments.push_back(
+        MakeExperimentRecord(spec, static_cast<int>(spec.experiments->size()) - 1));
+    // Throws where the test does not have what is to be met.
+    references = ReferencesOf(record, spec);
+    engine = options.engine ? options.engine() : MakeEngine(spec);
+  };
+  OpenedCampaign opened = OpenCampaign(folder, {}, console, check);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
   CoreTime core_time(opened.spec);
-  SetDrumDiameters(spec);
   spec.budget.core_time =
       core_time.OfSearch(trials) + options.core_time.value_or(core_time.OfTold(trials));
   // The runs of a goal count against the budget, too.
   if (const auto goal = LastGoal(opened.folder.root, opened.spec)) {
     *spec.budget.core_time += goal->core_time;
   }
-  SetDrumFills(spec);
-  journal::CampaignRecord record = opened.journal.Campaign();
-  record.experiments.push_back(
-      MakeExperimentRecord(spec, static_cast<int>(spec.experiments->size()) - 1));
-  // Throws where the test does not have what is to be met.
-  const std::vector<Reference> references = ReferencesOf(record, spec);
-  const auto engine = options.engine ? options.engine() : MakeEngine(spec);
   const TakenOver taken = TakeOverDesigns(opened.folder, trials,
                                           {.spec = spec,
                                            .index = static_cast<int>(references.size()) - 1,
                                            .reference = references.back()},
                                           *engine);
   *spec.budget.core_time += taken.core_time;
-  record.spec_json = SpecText(spec);
-  Write(opened, record, taken);
+  journal::CampaignRecord now = opened.journal.Campaign();  // by a changed spec, where it has
+  now.experiments.push_back(record.experiments.back());
+  now.spec_json = SpecText(spec);
+  Write(opened, now, taken);
   for (const std::string& reading : ReadingTexts({ExperimentsOf(spec).back()}))
     console.Line(reading);
   if (!taken.trials.empty()) console.Line(TakenOverText(taken));

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <tuple>
 #include <utility>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "base/text/counted.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
@@ -193,7 +193,7 @@ void Campaign::Submit(const std::vector<journal::TrialRecord>& trials) {
                        .end = runners::JobEnd::kExit,
                        .exit_status = 0,
                        .reason = {},
-                       .duration = std::numeric_limits<double>::quiet_NaN(),
+                       .duration = base::kNotKnown,
                        .cpu_time = 0,
                        .host = {}});
       continue;

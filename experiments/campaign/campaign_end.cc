@@ -79,7 +79,7 @@ void Campaign::DropRunning() {
     for (const runners::FinishedJob& job : parts_.runner->Wait(kPollSeconds)) {
       --left;
       const auto found = running_.find(job.id);
-      // One that has just ended well is adopted by the next session, with its time.
+      // One that has just ended well is adopted by the next session.
       if (found == running_.end() || job.ok()) continue;
       parts_.runner->Forget(JobOf(found->second));
       AddTimes(job, found->second);

@@ -40,10 +40,10 @@ bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignS
 }
 
 bool AllowMendedEngine(std::span<const journal::TrialRecord> trials,
-                       std::vector<std::string>& forbidden) {
+                       std::vector<base::JsonChange>& forbidden) {
   if (std::ranges::any_of(trials, HasTold)) return false;
-  const auto num_mended = std::erase_if(forbidden, [](const std::string& change) {
-    return change.starts_with("engine.") && !change.starts_with("engine.kind:");
+  const auto num_mended = std::erase_if(forbidden, [](const base::JsonChange& change) {
+    return change.path.starts_with("engine.") && change.path != "engine.kind";
   });
   return num_mended > 0;
 }

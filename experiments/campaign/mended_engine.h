@@ -21,6 +21,6 @@ bool TakeMendedTemplates(std::span<const journal::TrialRecord> trials, CampaignS
 // Takes what is of the engine's keys from the changes that are forbidden (ForbiddenChanges), where
 // no trial has succeeded. Whether there were any.
 bool AllowMendedEngine(std::span<const journal::TrialRecord> trials,
-                       std::vector<std::string>& forbidden);
+                       std::vector<base::JsonChange>& forbidden);
 
 }  // namespace talus::campaign

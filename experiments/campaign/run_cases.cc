@@ -1,12 +1,17 @@
 #include "experiments/campaign/run_cases.h"
 
+#include <charconv>
+#include <exception>
 #include <string>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
+#include "base/text/number_text.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/record/trial_end.h"
+#include "experiments/rigs/case/run_files.h"
 
 namespace talus::campaign {
 namespace {
@@ -31,6 +36,41 @@ void Start(const runners::Job& job, runners::Runner& runner) {
   if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
 }
 
+bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
+  return TimeOfFailure(run.folder) && engine.IsPrepared(run.rig_case, run.folder);
+}
+
+// What somebody else has ended says nothing of the case, and what met a limit may do with more.
+bool IsFailure(runners::JobEnd end) {
+  return end == runners::JobEnd::kExit || end == runners::JobEnd::kSignal;
+}
+
+// Where none of the cases has succeeded the set-up is wrong, and what mends it need not change the
+// cases: nothing is kept of their failures, however the call ends.
+class FailuresOfSetUp {
+ public:
+  FailuresOfSetUp(const CaseRuns& runs, trials::TrialEngine& engine)
+      : runs_(runs), engine_(engine) {}
+  FailuresOfSetUp(const FailuresOfSetUp&) = delete;
+  FailuresOfSetUp& operator=(const FailuresOfSetUp&) = delete;
+  ~FailuresOfSetUp() {
+    try {
+      for (std::size_t i = 0; i < runs_.count; ++i) {
+        if (engine_.IsComplete(runs_.at(i).folder)) return;
+      }
+      for (std::size_t i = 0; i < runs_.count; ++i) {
+        std::error_code ignored;
+        fs::remove(runs_.at(i).folder / rigs::kFailedFile, ignored);
+      }
+    } catch (const std::exception&) {  // a disk that fails keeps what it has
+    }
+  }
+
+ private:
+  const CaseRuns& runs_;
+  trials::TrialEngine& engine_;
+};
+
 constexpr const char* kMend = "; mend this, and the same command goes on";
 
 // A set-up that starts nothing, or a disk that takes no files, is no failure of the case, and would
@@ -50,6 +90,15 @@ void StopIfSetUpFailed(const runners::FinishedJob& job, const fs::path& folder,
 
 }  // namespace
 
+std::optional<double> TimeOfFailure(const fs::path& folder) {
+  const fs::path file = folder / rigs::kFailedFile;
+  if (!fs::exists(file)) return std::nullopt;
+  const std::string text = base::ReadFile(file);
+  double seconds = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
+}
+
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts) {
   const base::InterruptGuard interrupt;
   return RunCases(runs, parts, interrupt);
@@ -58,11 +107,16 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts) {
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
               const base::InterruptGuard& interrupt) {
   trials::TrialEngine& engine = *parts.engine;
+  const FailuresOfSetUp failures(runs, engine);
   std::size_t next = 0;
   int running = 0;
   while (next < runs.count || running > 0) {
     while (next < runs.count && running < parts.runner->Capacity()) {
       const FolderCase run = runs.at(next++);
+      if (HasFailed(run, engine)) {
+        runs.has_ended(next - 1);
+        continue;
+      }
       runners::Job job{.id = static_cast<std::int64_t>(next),
                        .folder = run.folder,
                        .command = {},
@@ -82,10 +136,12 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
     for (const runners::FinishedJob& job : parts.runner->Wait(wait)) {
       const auto index = static_cast<std::size_t>(job.id - 1);
       const fs::path folder = runs.at(index).folder;
-      // The same call later simulates what has left no result.
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
+      if (IsFailure(job.end) && !engine.IsComplete(folder)) {
+        base::WriteFileAtomically(folder / rigs::kFailedFile, base::ExactNumber(job.cpu_time));
+      }
       runs.has_ended(index);
       --running;
     }

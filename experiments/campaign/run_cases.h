@@ -1,10 +1,12 @@
 // Simulates cases beside a campaign's own trials, by its engine and runner, each in a folder of its
-// own. What is complete there is not run again: the same call goes on where another was ended.
+// own. What is complete there is not run again, nor what has failed as it is prepared now: the same
+// call goes on where another was ended.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/rigs/case/case.h"
@@ -23,6 +25,9 @@ struct CaseRuns {
   // Told of each when it has ended, well or not; those that were complete count as well.
   std::function<void(std::size_t)> has_ended = [](std::size_t) {};
 };
+
+// What a case took that has failed, and would again as it is prepared now [s]; nothing of others.
+std::optional<double> TimeOfFailure(const std::filesystem::path& folder);
 
 // False when the user ended it; what has ended is kept.
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts);

@@ -116,7 +116,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
     std::string message = path.string() +
                           ": has changed since the campaign began, in what its trials depend on; "
                           "undo this, or begin a new campaign:";
-    for (const std::string& what : forbidden) message += "\n  " + what;
+    for (const base::JsonChange& what : forbidden) message += "\n  " + ChangeText(what);
     throw base::ConfigError(message);
   }
   change.event = "spec";

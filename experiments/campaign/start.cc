@@ -170,6 +170,7 @@ std::vector<journal::ExperimentRecord> MeasuredExperiments(const CampaignSpec& s
 // The folder first: a journal that is made anew from it is to know of the change as well.
 void WriteSpec(const CampaignFolder& folder, const SpecChange& change, journal::Journal& journal) {
   journal::CampaignRecord record = journal.Campaign();
+  record.name = change.spec.name;
   if (!change.path.empty()) record.spec_path = change.path;
   record.spec_text = change.text;
   record.spec_json = SpecText(change.spec);
@@ -242,7 +243,7 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
 }
 
 OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, Console& console,
-                            const std::function<void(const CampaignSpec&)>& check) {
+                            const OpenCheck& check) {
   const CampaignFolder folder{fs::absolute(root)};
   if (!fs::is_directory(folder.root)) {
     throw base::ConfigError(root.string() +
@@ -262,7 +263,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
-  check(spec);
+  check(spec, record);
   if (change.engine_is_new) base::WriteFileAtomically(folder.mended(), change.words + "\n");
   // A search is open again together with what it goes on by: one that ends in between, or finds the
   // disk full, is as it was.

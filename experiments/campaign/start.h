@@ -49,12 +49,16 @@ struct OpenedCampaign {
   CampaignSpec spec;
   bool engine_is_new = false;  // mended_engine.h; CampaignParts is to be told
 };
+
+// Throws ConfigError where what is asked does not go with the spec that the campaign would go on
+// by, or with its experiments.
+using OpenCheck = std::function<void(const CampaignSpec&, const journal::CampaignRecord&)>;
+
 // Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
 // ConfigError that names what has changed in the spec where that is not allowed.
-// `check`: throws ConfigError where what is asked does not go with the spec, before anything of the
-// campaign is changed.
+// `check` is called before anything of the campaign is changed.
 OpenedCampaign OpenCampaign(
     const std::filesystem::path& folder, const ResumeOptions& options, Console& console,
-    const std::function<void(const CampaignSpec&)>& check = [](const CampaignSpec&) {});
+    const OpenCheck& check = [](const CampaignSpec&, const journal::CampaignRecord&) {});
 
 }  // namespace talus::campaign

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -18,13 +19,12 @@
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/stop.h"
 #include "experiments/campaign/record/stored.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 namespace {
 
 struct Counts {
-  std::array<int, 5> by_kind{};  // as in TrialKind
+  std::array<int, static_cast<std::size_t>(LastOf(journal::TrialKind{})) + 1> by_kind{};
   int running = 0;
   int failed = 0;
   double seconds = 0;  // of the finished trials
@@ -35,8 +35,7 @@ struct Counts {
       ++by_kind[static_cast<std::size_t>(trial.kind)];
       running += trial.status == journal::TrialStatus::kRunning;
       failed += trial.status == journal::TrialStatus::kFailed;
-      if (trial.status == journal::TrialStatus::kRunning || !std::isfinite(trial.duration_s))
-        continue;
+      if (trial.status == journal::TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
       seconds += trial.duration_s;
       ++finished;
     }
@@ -190,17 +189,18 @@ std::string TimeLines(const CampaignFolder& folder, const CampaignSpec& spec,
   const Counts counts(trials);
   std::string text;
   if (counts.finished > 0) {
-    text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
+    text += "  a trial takes     " + base::DurationText(counts.seconds / counts.finished) + "\n";
   }
-  text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
+  text += "  worked on for     " + base::DurationText(progress.elapsed_s) + "\n";
   const std::optional<GoalState> goal = LastGoal(folder.root, spec);
   const BudgetUse use = UseWith(goal, spec, trials, progress.elapsed_s);
   if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
+  if (spec.goal && !goal) text += "  goal              not looked at yet\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
   const bool goes_on =
       progress.result_json.empty() && progress.state != journal::CampaignState::kFinished;
   if (goes_on && use.seconds_left) {
-    text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";
+    text += "  time left         at most " + base::DurationText(*use.seconds_left) + "\n";
   }
   return text;
 }

@@ -5,8 +5,9 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
+
+#include "base/not_known.h"
 
 namespace talus::journal {
 namespace {
@@ -117,7 +118,7 @@ std::int64_t Statement::Integer(int column) const {
 double Statement::Real(int column) const {
   std::optional<double> value;
   ReadOne(column, value);
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+  return value.value_or(base::kNotKnown);
 }
 
 void Statement::ReadOne(int column, std::optional<double>& value) const {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <limits>
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/not_known.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/damaged_tables.h"
 #include "experiments/journal/objective.h"
@@ -206,9 +206,7 @@ void Journal::Start(std::span<const TrialRecord> trials, base::Outlives outlives
 
 void Journal::Insert(const TrialRecord& t) {
   // Only of a trial that had ended in a journal that was lost, or in another campaign.
-  const auto if_known = [](double seconds) {
-    return seconds > 0 ? seconds : std::numeric_limits<double>::quiet_NaN();
-  };
+  const auto if_known = [](double seconds) { return seconds > 0 ? seconds : base::kNotKnown; };
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
                ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', ?13, "

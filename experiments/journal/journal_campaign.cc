@@ -141,8 +141,8 @@ void Journal::ReopenSearch() {
 
 void Journal::SetSpec(const CampaignRecord& campaign, bool reopens) {
   Transaction transaction(database_);
-  database_.Prepare("UPDATE campaign SET spec_path = ?1, spec_text = ?2, spec_json = ?3")
-      .Bind(campaign.spec_path, campaign.spec_text, campaign.spec_json)
+  database_.Prepare("UPDATE campaign SET name = ?1, spec_path = ?2, spec_text = ?3, spec_json = ?4")
+      .Bind(campaign.name, campaign.spec_path, campaign.spec_text, campaign.spec_json)
       .Finish();
   if (reopens) SetOpen();
   SealCampaign(database_);

@@ -1,11 +1,11 @@
 // Records read back from the JSON that they were written as.
 #pragma once
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/json/json_reader.h"
+#include "base/not_known.h"
 
 namespace talus::journal {
 
@@ -19,7 +19,7 @@ inline void DropNulls(nlohmann::json& value) {
   }
   if (value.is_structured()) {
     for (auto& element : value) {
-      if (element.is_null()) element = std::numeric_limits<double>::quiet_NaN();
+      if (element.is_null()) element = base::kNotKnown;
       DropNulls(element);
     }
   }

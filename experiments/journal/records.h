@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "base/student_factor.h"
 
 namespace talus::journal {
@@ -44,11 +44,11 @@ std::string ColumnName(const ParameterRecord& parameter);
 // One number measured on a trial; `value` is NaN and `undefined` says why where it is not defined.
 struct MetricRecord {
   std::string name;  // with the unit: "sad_mm2", "repose_angle_2_mean_deg"
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = base::kNotKnown;
   std::string unit;       // "mm2", "deg", "-"
   std::string undefined;  // empty when the value is
   // The value's, from run to run: known of an experiment of several runs only.
-  double standard_error = std::numeric_limits<double>::quiet_NaN();
+  double standard_error = base::kNotKnown;
 
   TALUS_FIELDS(name, value, unit, undefined, standard_error);
 };

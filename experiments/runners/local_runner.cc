@@ -19,6 +19,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/cpu_time.h"
 #include "base/error.h"
 #include "base/files/descriptor.h"
 #include "base/files/file.h"
@@ -345,15 +346,12 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
   std::error_code ignored;
   std::filesystem::remove(process.folder / rigs::kGroupFile, ignored);
 
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
   FinishedJob job{.id = id,
                   .end = process.stopped,
                   .exit_status = 0,
                   .reason = {},
                   .duration = std::chrono::duration<double>(Clock::now() - process.start).count(),
-                  .cpu_time = seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                  .cpu_time = base::CpuTime(usage),
                   .host = host_};
   if (process.stopped != JobEnd::kExit) {
     job.reason = process.why;

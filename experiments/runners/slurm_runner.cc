@@ -44,9 +44,7 @@ std::string CampaignId(const fs::path& folder) {
 // What squeue shows of a job by default is the first 8 letters of its name.
 std::string NameOf(const fs::path& campaign) {
   constexpr std::size_t kMost = 40;
-  fs::path folder = campaign.lexically_normal();
-  if (folder.filename().empty()) folder = folder.parent_path();  // it ends with a slash
-  std::string name = base::FileWord(folder.filename().string()).substr(0, kMost);
+  std::string name = base::FileWord(base::FolderName(campaign)).substr(0, kMost);
   while (!base::IsUtf8(name)) name.pop_back();  // a letter that was cut
   return name;
 }

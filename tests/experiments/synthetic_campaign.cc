@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/not_known.h"
 #include "base/random.h"
 #include "experiments/campaign/answer/headline.h"
 #include "imaging/heap/metrics.h"
@@ -74,7 +75,7 @@ std::vector<analysis::ParameterInfo> Parameters(int count) {
 }
 
 double ValueOrNothing(const imaging::Measured& measured) {
-  return measured.defined() ? measured.value : analysis::kUndefined;
+  return measured.defined() ? measured.value : base::kNotKnown;
 }
 
 // Where trial `i` lies: six repeats of one set first, then an even design, then ever closer to the
@@ -122,7 +123,7 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
   if (options.coarse_design && is_early) trial.scale_factor = 2;
   trial.seconds = 40 + 15 * random.Uniform();
   trial.cpu_seconds = 0.97 * trial.seconds;
-  trial.metrics.assign(evidence.metrics.size(), analysis::kUndefined);
+  trial.metrics.assign(evidence.metrics.size(), base::kNotKnown);
   if (i % options.every_failed == options.every_failed - 1) {
     trial.state = journal::TrialStatus::kFailed;
     trial.reason = i % 2 == 0 ? "a velocity is not finite at step 81000"

@@ -350,6 +350,24 @@ class Progress(unittest.TestCase):
         for test, entry in tests.items():
             self.assertIn(entry, self.started("--test", test), test)
 
+    # Coarse grains go by what is filled in: a mass that no test takes counted, and a drum's fill did not.
+    def test_init_chooses_the_scale_factor_by_what_is_filled_in(self):
+        chosen = []
+        for mass, drum in (("1 g", "fill=0.4"), ("500 g", "fill=0.4"), ("1 g", "mass=20.6g")):
+            out = self.folder / f"fill{len(chosen)}.json"
+            done = talus("init", "--out", str(out), "--mass", mass, "--density", "2500 kg/m^3", "--grain-diameter",
+                         "0.4 mm", "--test", f"drum:{drum},diameter=60mm,width=14mm,angle=30deg")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            chosen.append(re.search(r'"scale_factors": \[(.*?)\]', out.read_text())[1])
+        self.assertEqual(chosen[0], chosen[1])
+        self.assertLess(abs(float(chosen[0]) - float(chosen[2])), 0.6)
+        self.assertGreater(float(chosen[0]), 2)
+
+    # Its usual error was written without the unit that the value has, and refused.
+    def test_init_gives_a_cohesion_its_usual_error(self):
+        text = self.started("--test", "shear_cell:cohesion=0.1kPa,internal_friction_angle=30deg")
+        self.assertIn('"cohesion": {"value": "0.1kPa", "sd": "50 Pa"}', text)
+
     # A funnel and its heap both have a height; of the two the funnel's was taken without a word.
     def test_init_tells_the_height_of_a_funnel_from_its_heaps(self):
         text = self.started("--test", "funnel_heap:rig_height=40mm,measured_height=9mm±1mm")

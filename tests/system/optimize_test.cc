@@ -170,6 +170,25 @@ TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllHadFailed) {
   EXPECT_EQ(mended["recommended"], anew["recommended"]);
 }
 
+// Once the mended command had succeeded the failures of the broken one, still in the log, counted.
+TEST_F(Optimize, AMendedCommandThatIsInterruptedDoesNotBringTheFailuresBack) {
+  Write("problem.json", "{\"evaluations\": 24, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("ask.sh",
+        "test -e mended || exit 3; if [ -e slow ]; then touch started; sleep 1; fi; exec " +
+            kCommand + "value\n");
+  const std::string arguments = "problem.json --out search --quiet -- sh ask.sh";
+  ASSERT_EQ(Talus(arguments), 1);
+  Write("mended", "");
+  Write("slow", "");
+  ASSERT_EQ(Run(TALUS_BINARY_DIR "/talus optimize " + arguments +
+                " & pid=$!; until [ -e started ]; do sleep 0.01; done; kill -INT $pid; wait $pid"),
+            130);
+  fs::remove(folder_ / "slow");
+  ASSERT_EQ(Talus(arguments), 0) << errors_;
+  EXPECT_THAT(base::ReadFile(folder_ / "search/evaluations.jsonl"),
+              testing::Not(HasSubstr("exit status 3")));
+}
+
 // Every sixth evaluation prints a stray line, nothing, NaN, 1e400 or null.
 TEST_F(Optimize, SenselessAnswersAreFailedEvaluations) {
   Write("problem.json", "{\"evaluations\": 30, \"parameters\": " + std::string(kUnitSquare) + "}");

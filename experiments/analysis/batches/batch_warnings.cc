@@ -21,24 +21,71 @@ struct Pair {
   int batch = 0;
 };
 
+rigs::Case MiddleCase(const JointView& view, int experiment) {
+  const auto num_free = static_cast<Eigen::Index>(view.space.Free().size());
+  std::vector<double> values = view.space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
+  for (const int i : view.space.Free()) {
+    const auto k = static_cast<std::size_t>(i);
+    if (campaign::IsFactor(view.space.parameters[k].name)) values[k] = 1;
+  }
+  return campaign::CaseOf(view.spec, {.values = values, .experiment = experiment}, std::nullopt);
+}
+
+// Both cases with `giver`'s values of what is searched: that is no condition.
+void Align(const optimizer::ParameterSpace& searched, rigs::Case& giver, rigs::Case& taker) {
+  for (const int i : searched.Free()) {
+    const std::string& name = searched.parameters[static_cast<std::size_t>(i)].name;
+    if (campaign::IsFactor(name)) continue;
+    const auto own = campaign::ParameterOf(taker, name);
+    const auto value = campaign::ParameterOf(giver, name);
+    if (!own && !value) continue;
+    campaign::SetParameter(value ? taker : giver, name, value ? *value : *own);
+  }
+}
+
 // What the two do otherwise with one set; empty if nothing.
 std::string OtherCase(const JointView& first, const JointView& batch, const Pair& experiment) {
-  const auto num_free = static_cast<Eigen::Index>(first.space.Free().size());
-  const std::vector<double> values = first.space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
-  if (values.size() != batch.space.parameters.size()) return "";
-  const auto case_of = [&](const JointView& view, int e) {
-    return campaign::CaseOf(view.spec, {.values = values, .experiment = e}, std::nullopt);
-  };
-  return rigs::RunDifference(case_of(first, experiment.first), case_of(batch, experiment.batch))
-      .value_or("");
+  rigs::Case there = MiddleCase(first, experiment.first);
+  rigs::Case here = MiddleCase(batch, experiment.batch);
+  Align(batch.space, there, here);
+  Align(first.space, here, there);
+  return rigs::RunDifference(there, here).value_or("");
+}
+
+std::string Differ(const std::string& what, double there, double here) {
+  if (there == here) return "";
+  return what + " is " + base::ShortNumber(there) + " there and " + base::ShortNumber(here) +
+         " here";
 }
 
 std::string OtherScale(const JointView& first, const JointView& batch) {
-  const double there = first.spec.coarse_graining.scale_factor;
-  const double here = batch.spec.coarse_graining.scale_factor;
-  if (there == here) return "";
-  return "the scale factor is " + base::ShortNumber(there) + " there and " +
-         base::ShortNumber(here) + " here";
+  const campaign::GrainSizes& there = first.spec.coarse_graining;
+  const campaign::GrainSizes& here = batch.spec.coarse_graining;
+  const std::string answers =
+      Differ("the scale factor that it answers for", there.Target(), here.Target());
+  if (!answers.empty()) return answers;
+  return Differ("the finest scale factor simulated", there.Levels().back(), here.Levels().back());
+}
+
+// Of two batches' tests those that one has alone: ranges that rest on other tests are other ranges.
+std::string OtherTests(const JointView& first, const JointView& batch) {
+  const auto alone = [](const JointView& view, const JointView& other) {
+    std::vector<std::string> names;
+    for (const journal::ExperimentRecord& e : view.record.experiments) {
+      const auto& others = other.record.experiments;
+      const auto same = std::ranges::find(others, e.name, &journal::ExperimentRecord::name);
+      if (same == others.end()) names.push_back("\"" + e.name + "\"");
+    }
+    return names;
+  };
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& names, const char* where) {
+    if (names.empty()) return;
+    text += (text.empty() ? "" : ", and ") + base::Listed(names) + " only " + where;
+  };
+  add(alone(first, batch), "there");
+  add(alone(batch, first), "here");
+  return text.empty() ? "" : "there is " + text;
 }
 
 std::string EngineText(const campaign::EngineOptions& engine) {
@@ -83,6 +130,7 @@ std::vector<std::string> OtherConditions(const JointView& first, const JointView
                     "; a difference of the parameters may come of it");
   };
   add(OtherScale(first, batch), "");
+  add(OtherTests(first, batch), "");
   for (const int e : first.All()) {
     const std::string& name = first.NameOf(e);
     const auto& others = batch.record.experiments;

@@ -4,12 +4,12 @@
 
 #include <array>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "engine/laws/material.h"
 #include "engine/laws/material_pair.h"
 #include "engine/laws/pair_constants.h"
@@ -28,8 +28,8 @@ struct CardRange {
   std::string name;
   std::string unit;
   double value = 0;
-  double low = std::numeric_limits<double>::quiet_NaN();  // NaN: of one draw, which has none
-  double high = std::numeric_limits<double>::quiet_NaN();
+  double low = base::kNotKnown;  // NaN: of one draw, which has none
+  double high = base::kNotKnown;
   std::string prior{};  // as the spec gives it: "0.35 ± 0.05"; empty: none
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/not_known.h"
+
 namespace talus::analysis {
 namespace {
 
@@ -48,8 +50,8 @@ std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured, co
 
 // The scatter between trials of one set, pooled over the sets.
 struct Scatter {
-  double sd = kUndefined;  // not known without repeats
-  double freedom = 0;      // degrees of it
+  double sd = base::kNotKnown;  // not known without repeats
+  double freedom = 0;           // degrees of it
 };
 
 Scatter PooledScatter(const std::vector<Measurement>& measured) {
@@ -87,12 +89,12 @@ double ScatterWith(const Scatter& repeats, double of_model) {
   return repeats.freedom > 0 ? std::max(repeats.sd, of_model) : of_model;
 }
 
-// What the campaign's answer says of its own objective; kUndefined of others.
+// What the campaign's answer says of its own objective; NaN of others.
 double ScatterOfAnswer(const Evidence& evidence, const Criterion& info) {
-  if (!evidence.answer || info.key != evidence.objective) return kUndefined;
+  if (!evidence.answer || info.key != evidence.objective) return base::kNotKnown;
   const auto& experiments = evidence.answer->experiments;
-  if (evidence.experiment >= experiments.size()) return kUndefined;
-  return experiments[evidence.experiment].noise_sd.value_or(kUndefined);
+  if (evidence.experiment >= experiments.size()) return base::kNotKnown;
+  return experiments[evidence.experiment].noise_sd.value_or(base::kNotKnown);
 }
 
 // The share of the cube whose nearest set ties: trials crowd where they are good, so their own

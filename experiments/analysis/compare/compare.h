@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/objective_model.h"
@@ -46,10 +47,10 @@ struct ModelFinding {
 
 struct ObjectiveFinding {
   Criterion info;
-  double reference = kUndefined;        // the experiment's angle, or its number
-  double reference_error = kUndefined;  // its standard error
-  double noise_sd = kUndefined;         // scatter of one evaluation of the quantity
-  std::string absent;                   // why nothing can be said; empty when there is an answer
+  double reference = base::kNotKnown;        // the experiment's angle, or its number
+  double reference_error = base::kNotKnown;  // its standard error
+  double noise_sd = base::kNotKnown;         // scatter of one evaluation of the quantity
+  std::string absent;  // why nothing can be said; empty when there is an answer
   TrialFinding from_trials;
   std::optional<ModelFinding> from_model;  // needs some more trials than none
 

@@ -1,19 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/num_characters.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/knowledge.h"
 
 namespace talus::analysis {
 namespace {
-
-// Characters, not bytes: units and symbols are not ASCII.
-std::size_t WidthOf(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
 
 using Row = std::vector<std::string>;
 
@@ -22,13 +16,14 @@ std::string Aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], WidthOf(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], base::NumCharacters(row[i]));
   }
   std::string text;
   for (const Row& row : rows) {
     std::string line = " ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string pad(widths[i] - WidthOf(row[i]), ' ');
+      const std::string pad(widths[i] - base::NumCharacters(row[i]), ' ');
       line += " " + (i == 0 ? row[i] + pad : " " + pad + row[i]);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -64,13 +59,14 @@ Row SetRow(const ObjectiveFinding& f, const std::string& measured,
   return row;
 }
 
-// "yes, and so do 4 of 4 parts of the trials"
+// "yes, and in 4 of 4 refits without a part of the trials"; "no, but in 3 of 4 refits …"
 std::string HoldsText(const ObjectiveKnowledge& k) {
   if (!k.absent.empty()) return k.absent;
   std::string text = k.Holds() ? "yes" : "no";
   if (k.num_refits > 0) {
-    text += ", and " + std::to_string(k.num_holding) + " of " + std::to_string(k.num_refits) +
-            " refits without a part of the trials do";
+    const bool differs = (k.Holds() ? k.num_refits - k.num_holding : k.num_holding) > 0;
+    text += (differs ? ", but in " : ", and in ") + std::to_string(k.num_holding) + " of " +
+            std::to_string(k.num_refits) + " refits without a part of the trials";
   }
   return text;
 }

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/experiment_fit.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/journal/records.h"
@@ -20,8 +20,6 @@
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::analysis {
-
-inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct ParameterInfo {
   optimizer::Parameter range;  // name, low, high, scale
@@ -43,32 +41,32 @@ struct TrialEvidence {
   std::vector<double> values;  // in the order of Evidence::parameters, SI
   std::int64_t seed = 0;
   double scale_factor = 1;
-  std::vector<double> metrics;  // in the order of Evidence::metrics; kUndefined where it has none
-  std::string reason;           // why it failed
-  double seconds = kUndefined;  // wall time of its simulation [s]
-  double cpu_seconds = kUndefined;  // [s]
+  std::vector<double> metrics;           // in the order of Evidence::metrics; NaN where it has none
+  std::string reason;                    // why it failed
+  double seconds = base::kNotKnown;      // wall time of its simulation [s]
+  double cpu_seconds = base::kNotKnown;  // [s]
 };
 
 // The experiment that the trials are compared with.
 struct ReferenceEvidence {
   imaging::Profile aehp;                         // empty where the experiment has numbers only
   std::vector<journal::ScalarRecord> numbers{};  // measured beside the images, or without any
-  std::vector<double> metrics;      // of the AEHP itself, in the order of Evidence::metrics
-  std::vector<double> errors;       // standard errors of these, from run to run
-  double noise_floor = kUndefined;  // leave-one-run-out SAD [mm²]; kUndefined for a lone map
-  int num_heaps = 1;                // runs that the AEHP is the mean of
+  std::vector<double> metrics;           // of the AEHP itself, in the order of Evidence::metrics
+  std::vector<double> errors;            // standard errors of these, from run to run
+  double noise_floor = base::kNotKnown;  // leave-one-run-out SAD [mm²]; NaN for a lone map
+  int num_heaps = 1;                     // runs that the AEHP is the mean of
 
   bool has_image() const { return !aehp.image.pixels.empty(); }
 };
 
 // The model that the campaign answers with, asked again. Points are of the unit cube.
 struct ModelEvidence {
-  Eigen::VectorXd point;         // that it recommends
-  double expected = kUndefined;  // the objective there, of the experiment that is shown; >= 0
-  double expected_sd = kUndefined;
-  double noise_sd = kUndefined;   // scatter of one evaluation there
-  Eigen::MatrixXd draws;          // of the posterior, one a row
-  Eigen::MatrixXd prior_draws{};  // of the prior; no rows where it is uniform
+  Eigen::VectorXd point;              // that it recommends
+  double expected = base::kNotKnown;  // the objective there, of the experiment that is shown; >= 0
+  double expected_sd = base::kNotKnown;
+  double noise_sd = base::kNotKnown;  // scatter of one evaluation there
+  Eigen::MatrixXd draws;              // of the posterior, one a row
+  Eigen::MatrixXd prior_draws{};      // of the prior; no rows where it is uniform
   // Share of the posterior that is denser than at a point, one a row.
   std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> credible_levels{};
   // The objective, >= 0, one point a row; empty where the experiment that is shown has no image.
@@ -77,14 +75,14 @@ struct ModelEvidence {
 
 // What one objective knows by itself (knowledge.h).
 struct ObjectiveKnowledge {
-  std::string title;                // "whole heap (SAD, RMSE)", "AOR 1"
-  std::string absent{};             // why nothing is known
-  double region = kUndefined;       // its joint 90 % region, share of the searched ranges
-  double region_low = kUndefined;   // … known to lie between these, 90 %
-  double region_high = kUndefined;  // kUndefined: not known
-  double level = kUndefined;        // credible level of the campaign's recommended set
-  int num_holding = 0;              // refits without some trials whose region holds that set
-  int num_refits = 0;               // … of so many
+  std::string title;                     // "whole heap (SAD, RMSE)", "AOR 1"
+  std::string absent{};                  // why nothing is known
+  double region = base::kNotKnown;       // its joint 90 % region, share of the searched ranges
+  double region_low = base::kNotKnown;   // … known to lie between these, 90 %
+  double region_high = base::kNotKnown;  // NaN: not known
+  double level = base::kNotKnown;        // credible level of the campaign's recommended set
+  int num_holding = 0;                   // refits without some trials whose region holds that set
+  int num_refits = 0;                    // … of so many
 
   bool Holds() const { return level <= optimizer::kRegionLevel; }
 };
@@ -103,14 +101,15 @@ struct Evidence {
   std::string name;
   std::filesystem::path folder;  // of the campaign
   journal::CampaignState state = journal::CampaignState::kRunning;
-  bool ended_silently = false;       // kRunning, but no process works on it
-  std::string stop_reason;           // empty while running
-  std::size_t experiment = 0;        // whose trials these are, of the campaign's
-  double scale_factor = 1;           // of the search
-  std::string objective;             // key of one of kObjectives: the latest search's
-  std::string strategy;              // its kind
-  int max_simulations = 0;           // the budget; 0: none
-  double seconds_left = kUndefined;  // at most, while it runs; undefined before a trial has ended
+  bool ended_silently = false;  // kRunning, but no process works on it
+  std::string stop_reason;      // empty while running
+  std::size_t experiment = 0;   // whose trials these are, of the campaign's
+  double scale_factor = 1;      // of the search
+  std::string objective;        // key of one of kObjectives: the latest search's
+  std::string strategy;         // its kind
+  int max_simulations = 0;      // the budget; 0: none
+  double seconds_left =
+      base::kNotKnown;  // at most, while it runs; undefined before a trial has ended
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
   std::vector<TrialEvidence> trials;

@@ -140,7 +140,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
 }
 
 std::string NameOf(const FitRow& row) {
-  return "the " + row.what + " of \"" + row.experiment + "\"" + (row.held_out ? ", held out" : "");
+  return "the " + row.what + " of \"" + row.experiment + "\"" + (row.held_out ? " (held out)" : "");
 }
 
 // "The mass of "heap" and …" of the rows that are so; empty without.

@@ -1,10 +1,10 @@
 // How well the recommended set meets each experiment, for people who did not run the campaign.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/journal/records.h"
 
@@ -18,10 +18,10 @@ struct FitRow {
   std::string simulated{};  // "0.446 mm² SAD", "5.51 mg"; empty where nothing was simulated there
   std::string judgement{};  // "0.66 times as far as the runs are from each other"
   campaign::Meets meets = campaign::Meets::kUnknown;
-  double implausibility = std::numeric_limits<double>::quiet_NaN();  // of the experiment
-  std::string confirmed{};    // the confirming part of `simulated`
-  bool is_confirmed = false;  // simulated again with fresh seeds
-  bool held_out = false;      // the answer is made without it
+  double implausibility = base::kNotKnown;  // of the experiment
+  std::string confirmed{};                  // the confirming part of `simulated`
+  bool is_confirmed = false;                // simulated again with fresh seeds
+  bool held_out = false;                    // the answer is made without it
 };
 
 // Every experiment's image and numbers, in the campaign's order: as confirmed with fresh seeds, or

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/json/json_file.h"
 #include "base/json/json_reader.h"
+#include "base/not_known.h"
 #include "base/text/joined.h"
 #include "base/version.h"
 #include "engine/kernel/dispatch.h"
@@ -50,7 +51,7 @@ void MarkNuisances(const campaign::CampaignSpec& spec, Evidence& evidence) {
 // The value of each known metric, in their order; new ones are added to the list.
 std::vector<double> InColumns(const std::vector<journal::MetricRecord>& records,
                               std::vector<MetricInfo>& columns) {
-  std::vector<double> values(columns.size(), kUndefined);
+  std::vector<double> values(columns.size(), base::kNotKnown);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const auto same = [&](const MetricInfo& info) { return info.name == records[i].name; };
     // Nearly always the list is the same for all.
@@ -122,11 +123,11 @@ void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
                         .standard_error = number.standard_error});
   }
   evidence.reference.metrics = InColumns(measured, evidence.metrics);
-  evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
+  evidence.reference.metrics.resize(evidence.metrics.size(), base::kNotKnown);
   for (journal::MetricRecord& metric : measured) metric.value = metric.standard_error;
   evidence.reference.errors = InColumns(measured, evidence.metrics);
   for (TrialEvidence& trial : evidence.trials) {
-    trial.metrics.resize(evidence.metrics.size(), kUndefined);
+    trial.metrics.resize(evidence.metrics.size(), base::kNotKnown);
   }
   evidence.scale_factor = FinestOfSearch(trials);
 }
@@ -201,7 +202,7 @@ void AddReference(const journal::ExperimentRecord& record, Evidence& evidence) {
   evidence.reference.aehp = ReadReference(record);
   evidence.reference.numbers = record.scalars;
   evidence.reference.num_heaps = record.num_heaps;
-  evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
+  evidence.reference.noise_floor = record.noise_mm2.value_or(base::kNotKnown);
 }
 
 // A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
@@ -265,7 +266,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   evidence.ended_silently = evidence.IsRunning() && !worked_on;
   if (evidence.IsRunning()) {
     const auto left = campaign::UseSoFar(campaign, spec, trials, progress.elapsed_s).seconds_left;
-    evidence.seconds_left = left.value_or(kUndefined);
+    evidence.seconds_left = left.value_or(base::kNotKnown);
   }
   AddReference(shown, evidence);
   AddAnswer(progress.result_json, record, evidence);

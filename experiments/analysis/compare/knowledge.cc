@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "base/not_known.h"
 #include "base/student_factor.h"
 #include "base/text/plain_number.h"
 #include "experiments/analysis/compare/labels.h"
@@ -55,8 +55,7 @@ Sole SoleNumber(const campaign::JointView& view, int experiment,
   sole.target.scalars = {measured};
   for (const journal::TrialRecord& trial : campaign::InOrderOfFinish(view.trials)) {
     if (trial.experiment != experiment || !trial.IsOfSearch()) continue;
-    const double value =
-        trial.Metric(measured.name).value_or(std::numeric_limits<double>::quiet_NaN());
+    const double value = trial.Metric(measured.name).value_or(base::kNotKnown);
     optimizer::Observation observation = Bare(trial);
     if (!observation.failed && std::isnan(value)) continue;  // a column has no angle of repose
     observation.scalars = {value};

@@ -16,6 +16,8 @@ std::string SymbolOf(std::string_view parameter) {
       {"youngs_modulus", "Y"},
       {"poisson_ratio", "ν"},
       {"rolling_damping", "ηᵣ"},
+      {"hamaker_constant", "A"},
+      {"density", "ρ"},
       {"plate_sliding_friction", "μₜ plate"},
       {"plate_rolling_friction", "μᵣ plate"},
       {"plate_surface_energy", "γ plate"},
@@ -37,7 +39,12 @@ std::string SymbolOf(std::string_view parameter) {
 
 std::string WordsOf(std::string_view parameter) {
   if (SymbolOf(parameter) == parameter) return "";
-  return base::Spaced(campaign::PlaceOf(std::string(parameter)).property);
+  static constexpr base::KeyText kWords[]{{"youngs_modulus", "Young's modulus"},
+                                          {"poisson_ratio", "Poisson's ratio"},
+                                          {"hamaker_constant", "Hamaker constant"}};
+  const std::string property = campaign::PlaceOf(std::string(parameter)).property;
+  const std::string words = base::TextOf(kWords, property);
+  return words == property ? base::Spaced(property) : words;
 }
 
 std::string LongNameOf(std::string_view parameter) {

@@ -9,15 +9,16 @@
 
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/plan/usual_cost.h"
 #include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -37,7 +38,7 @@ std::string MeritText(const DesignTable& table, const DesignChoice& choice) {
   if (table.supposed.empty()) {
     std::snprintf(text, sizeof text, "%5.2f bits", choice.learning.bits);
   } else {
-    std::snprintf(text, sizeof text, "%8.2g %%", 100 * choice.remaining);
+    std::snprintf(text, sizeof text, "%8s %%", base::InPercent(choice.remaining).c_str());
   }
   return text;
 }
@@ -92,7 +93,7 @@ std::string NumbersText(const campaign::JointView& view, const TestCandidate& te
 // Seconds with their fractions where there are few.
 std::string TimeText(double seconds) {
   constexpr double kFew = 10;
-  return seconds < kFew ? ShortNumber(seconds, 2) + " s" : trials::DurationText(seconds);
+  return seconds < kFew ? ShortNumber(seconds, 2) + " s" : base::DurationText(seconds);
 }
 
 std::string FillingText(rigs::FillingKind kind) {
@@ -160,10 +161,10 @@ std::string DesignCostText(const DesignSpec& design) {
     text += "    " + experiments[static_cast<std::size_t>(trial.experiment)].name + ": " +
             std::to_string(trial.num_grains) + " grains of " +
             base::ShortNumber(1e3 * trial.mean_diameter) + " mm, " +
-            trials::DurationText(trial.core_seconds) + " of a core\n";
+            base::DurationText(trial.core_seconds) + " of a core\n";
   }
   return text + "  time              " + base::Counted(kDesignSimulations, "simulation") +
-         " of each, about " + trials::DurationText(seconds) + " of core time in all\n";
+         " of each, about " + base::DurationText(seconds) + " of core time in all\n";
 }
 
 std::string DesignText(const DesignTable& table, const campaign::JointView& view,

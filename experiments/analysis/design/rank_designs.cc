@@ -1,7 +1,9 @@
 #include "experiments/analysis/design/rank_designs.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "base/error.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
 #include "experiments/analysis/next/test_design.h"
@@ -29,17 +31,28 @@ Eigen::MatrixXd PriorDraws(const campaign::JointView& view) {
                   : domain.prior.Draw(kPriorDraws, domain.num_parameters, view.spec.seed));
 }
 
-// So many sets with the values that are given, and with draws' values in place of those that are
-// not (NaN).
-Eigen::MatrixXd SetsWith(const Eigen::VectorXd& given, const Eigen::MatrixXd& draws) {
+// Sets with the values that are given, and with draws' values in place of those that are not (NaN):
+// at most 64 of those that the constraints allow.
+Eigen::MatrixXd SetsWith(const Eigen::VectorXd& given, const Eigen::MatrixXd& draws,
+                         const optimizer::Domain& domain) {
   constexpr Eigen::Index kSets = 64;
   if (given.size() == 0) return {};
-  Eigen::MatrixXd sets(kSets, draws.cols());
-  for (Eigen::Index s = 0; s < kSets; ++s) {
-    const Eigen::VectorXd draw = draws.row(s * draws.rows() / kSets).transpose();
-    sets.row(s) = given.array().isNaN().select(draw, given).transpose();
+  Eigen::MatrixXd sets = draws;
+  std::vector<Eigen::Index> allowed;
+  for (Eigen::Index s = 0; s < sets.rows(); ++s) {
+    sets.row(s) = given.array().isNaN().select(draws.row(s).transpose(), given).transpose();
+    if (domain.Contains(sets.row(s))) allowed.push_back(s);
   }
-  return sets;
+  if (allowed.empty()) {
+    throw base::ConfigError(
+        "the supposed powder: no set with these values satisfies the constraints");
+  }
+  const auto count = static_cast<Eigen::Index>(allowed.size());
+  std::vector<Eigen::Index> some;
+  for (Eigen::Index s = 0; s < std::min(kSets, count); ++s) {
+    some.push_back(allowed[static_cast<std::size_t>(s * count / std::min(kSets, count))]);
+  }
+  return sets(some, Eigen::all);
 }
 
 NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
@@ -49,6 +62,7 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
   const TestDesign design =
       SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kDesignSimulations}, parts);
   candidate.num_made = design.num_simulations;
+  candidate.num_failed = design.NumFailed();
   candidate.core_time_made = design.core_time;
   JudgeTest(ground, {.test = test, .design = design, .unknown = {}}, candidate);
   return candidate;
@@ -96,7 +110,7 @@ DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestC
                 .draws = PriorDraws(view),
                 .model_error = view.spec.posterior.model_error,
                 .surrogate_share = kSurrogateShare};
-  ground.supposed = SetsWith(supposed.point, ground.draws);
+  ground.supposed = SetsWith(supposed.point, ground.draws, view.space.MakeDomain());
   DesignTable table{
       .tests = {.parameters = view.record.parameters, .nuisances = view.space.Nuisances()},
       .supposed = supposed.values,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -31,6 +32,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// How far a trial's numbers are off what was measured, in squared standard errors; farther than any
+// where it has not all of them.
+double MisfitOfNumbers(const journal::ExperimentRecord& experiment,
+                       const journal::TrialRecord& trial) {
+  double sum = 0;
+  for (const journal::ScalarRecord& measured : experiment.scalars) {
+    const std::optional<double> value = trial.Metric(measured.name);
+    if (!value) return std::numeric_limits<double>::max();
+    const double error = measured.standard_error > 0 ? measured.standard_error : 1;
+    sum += std::pow((*value - measured.value) / error, 2);
+  }
+  return sum;
+}
+
 // The first trial that confirms the recommended set, else the best of the first experiment.
 std::int64_t TrialToShow(const fs::path& campaign) {
   const std::optional<campaign::Answer> answer = campaign::StandingAnswer(campaign);
@@ -46,11 +61,14 @@ std::int64_t TrialToShow(const fs::path& campaign) {
     if (confirms && answer && IsRecommended(*answer, trial.native)) return trial.id;
     if (trial.scale_factor != spec.coarse_graining.scale_factor) continue;
     const campaign::Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
-    const std::optional<double> value = reference.Value(trial);
-    if (!value && reference.has_image()) continue;  // an angle that is not defined, say
-    if (best && value.value_or(0) >= least) continue;
+    const double value =
+        reference.has_image()
+            ? reference.Value(trial).value_or(std::numeric_limits<double>::infinity())
+            : MisfitOfNumbers(record.experiments.front(), trial);
+    if (!std::isfinite(value)) continue;  // an angle that is not defined, say
+    if (best && value >= least) continue;
     best = trial.id;
-    least = value.value_or(0);
+    least = value;
   }
   if (!best) throw base::Error(campaign.string() + ": no trial has succeeded yet");
   return *best;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "base/random.h"
 #include "base/student_factor.h"
 #include "base/text/joined.h"
@@ -116,7 +117,7 @@ rigs::Case CampaignGoal::CaseAt(const fs::path& look, const DesignRecord& design
 }
 
 bool CampaignGoal::IsOurs(const DesignRecord& design) const {
-  return design.test == rigs::CaseText(process_.rig_case) &&
+  return design.test == rigs::RunText(process_.rig_case) &&
          std::ranges::all_of(design.points, [&](const std::vector<double>& point) {
            return point.size() == plan_.space.Free().size();
          });
@@ -124,7 +125,7 @@ bool CampaignGoal::IsOurs(const DesignRecord& design) const {
 
 DesignRecord CampaignGoal::DesignOf(const campaign::JointView& view, const Eigen::MatrixXd& draws,
                                     const DesignFolder& look, bool is_first) const {
-  DesignRecord wanted{.test = rigs::CaseText(process_.rig_case),
+  DesignRecord wanted{.test = rigs::RunText(process_.rig_case),
                       .scale_factor = process_.rig_case.coarse_graining.scale_factor};
   if (const auto stored = look.Read(); stored && IsOurs(*stored)) return *stored;
   wanted.points = ChooseDraws(draws, is_first ? kFirstRuns : kMoreRuns, view.spec.seed).points;
@@ -141,8 +142,11 @@ Prediction CampaignGoal::Collect(double& core_time) const {
     const auto design = look.Read();
     if (!design || !IsOurs(*design)) continue;
     for (std::size_t i = 0; i < design->points.size(); ++i) {
-      if (!parts_.engine->IsComplete(look.trial(i))) continue;
-      double value = kUnknown;
+      if (!parts_.engine->IsComplete(look.trial(i))) {
+        core_time += campaign::TimeOfFailure(look.trial(i)).value_or(0);
+        continue;
+      }
+      double value = base::kNotKnown;
       try {
         const trials::TrialOutput output =
             parts_.engine->Collect(CaseAt(folder, *design, i), look.trial(i));

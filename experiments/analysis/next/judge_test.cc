@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/files/output_folder.h"
+#include "base/not_known.h"
 #include "base/sample.h"
 #include "base/text/counted.h"
 #include "experiments/analysis/compare/heap_pair.h"
@@ -31,7 +31,7 @@ double ScalarOf(const DesignTrial& trial, std::string_view name) {
   for (const journal::MetricRecord& metric : trial.scalars) {
     if (metric.name == name) return metric.value;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return base::kNotKnown;
 }
 
 // The test as if it had measured what the design shows on average.

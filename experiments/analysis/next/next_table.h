@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/journal/records.h"
 #include "optimizer/posterior/expected_learning.h"
 #include "optimizer/space/parameter_space.h"
@@ -46,12 +46,13 @@ struct NextCandidate {
   std::optional<optimizer::ExpectedLearning> learning{};
   // Share that it is expected to leave of the goal's width, else of the volume of the 90 % ranges
   // of what is asked for [-]; NaN where that is not known.
-  double remaining = std::numeric_limits<double>::quiet_NaN();
+  double remaining = base::kNotKnown;
   optimizer::PredictedMeasurement predicted{};  // of a test: what `learning` is of
   std::vector<NextUnknown> unknowns{};          // of a test: what it is discounted for, most first
   std::optional<double> bits_if_known{};        // without that discount
   int num_simulations = 0;  // that it will take, about, with those that are made
   int num_made = 0;         // of these, for its design
+  int num_failed = 0;       // of those made
   double core_time = 0;     // of all these simulations [s]
   double core_time_made = 0;
   double core_time_to_judge = 0;             // of a test without a design: what that takes [s]

@@ -7,12 +7,12 @@
 
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -54,9 +54,10 @@ std::string CostText(const NextCandidate& c) {
   std::string text = base::Counted(c.num_simulations, "simulation") + ", ";
   if (c.num_made > 0) {
     text += std::to_string(c.num_made) + " of them made in " +
-            trials::DurationText(c.core_time_made) + ", ";
+            base::DurationText(c.core_time_made) +
+            (c.num_failed > 0 ? ", " + std::to_string(c.num_failed) + " failed" : "") + ", ";
   }
-  return text + trials::DurationText(c.core_time) + " of core time";
+  return text + base::DurationText(c.core_time) + " of core time";
 }
 
 // ", which depends on restitution, mass": what it was discounted for.
@@ -144,7 +145,7 @@ std::string CheapestText(const NextTable& table) {
   // A whole half minute more, so that an estimate that is a little short still pays for it.
   const double budget = 30 * std::ceil(1.2 * cheapest->core_time_to_judge / 30);
   return "the cheapest, " + cheapest->name + ", takes about " +
-         trials::DurationText(cheapest->core_time_to_judge) + " of core time (`talus next DIR" +
+         base::DurationText(cheapest->core_time_to_judge) + " of core time (`talus next DIR" +
          table.asked + " --simulate --budget \"" + ShortNumber(budget) + " s\"`";
 }
 
@@ -185,6 +186,7 @@ nlohmann::ordered_json CandidateJson(const NextTable& table, const NextCandidate
                               {"num_simulations", c.num_simulations},
                               {"core_time_s", c.core_time},
                               {"num_made", c.num_made},
+                              {"num_failed", c.num_failed},
                               {"core_time_made_s", c.core_time_made},
                               {"needs_simulations", NeedsSimulations(c)}};
   AddLearning(table, c, json);

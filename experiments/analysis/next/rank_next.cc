@@ -8,6 +8,7 @@
 #include "base/sample.h"
 #include "base/student_factor.h"
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/ground.h"
@@ -18,7 +19,6 @@
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/observables/observable.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "experiments/trials/simulate/work_text.h"
 
 namespace talus::analysis {
@@ -281,10 +281,11 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
     if (!design.stored) {
       candidate.core_time_to_judge = design.cost;
       candidate.what += ", judged by " + base::Counted(kDesignSize, "coarse simulation") + " of " +
-                        trials::DurationText(design.cost) + " of core time together";
+                        base::DurationText(design.cost) + " of core time together";
       continue;
     }
     candidate.num_made = design.stored->num_simulations;
+    candidate.num_failed = design.stored->NumFailed();
     candidate.num_simulations = std::max(candidate.num_simulations, candidate.num_made);
     candidate.core_time_made = design.stored->core_time;
     const UnknownTrials unknown = UnknownsOf(view, options, design, cost, left, candidate);

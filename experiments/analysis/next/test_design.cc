@@ -9,6 +9,7 @@
 #include "base/json/json_writer.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -20,11 +21,11 @@ campaign::DesignFolder FolderOf(const campaign::JointView& view, const TestCandi
 }
 
 std::string TextOf(const campaign::JointView& view, const TestCandidate& test) {
-  return base::JsonText(base::ToJson(
+  return rigs::RunText(
       campaign::CaseOf(SpecOf(view, test),
                        {.values = view.space.ToNative(Eigen::VectorXd::Constant(
                             static_cast<Eigen::Index>(view.space.Free().size()), 0.5))},
-                       FrameOf(view, test))));
+                       FrameOf(view, test)));
 }
 
 std::vector<std::vector<double>> PointsOf(const DesignPlace& place) {
@@ -79,6 +80,11 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const campaign::FolderCase at{.folder = FolderOf(view, test).trial(i),
                                   .rig_case = CaseAt(view, test, record, i)};
+    if (const auto failed = campaign::TimeOfFailure(at.folder)) {
+      ++design.num_simulations;
+      design.core_time += *failed;
+      continue;
+    }
     if (!engine.IsComplete(at.folder)) continue;
     ++design.num_simulations;
     if (auto trial = CollectTrial(engine, at, PointOf(record, i), design.core_time)) {

@@ -28,8 +28,10 @@ struct TestDesign {
   std::optional<imaging::Frame> frame{};
   int size = 0;                       // simulations in all
   std::vector<DesignTrial> trials{};  // those that succeeded
-  int num_simulations = 0;            // that have ended
+  int num_simulations = 0;            // that have ended, well or not
   double core_time = 0;               // of these [s]
+
+  int NumFailed() const { return num_simulations - static_cast<int>(trials.size()); }
 };
 
 // The design that was made; nothing where none was, or one of another device.

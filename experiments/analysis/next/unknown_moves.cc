@@ -46,6 +46,15 @@ std::vector<Move> UsualThere(const campaign::JointView& view, const SensitivityT
   return UsualMoves(view, experiments);
 }
 
+// The user's value; a test of another mass is moved by the same ratio.
+std::string ValueHere(const rigs::Case& rig_case, const FixedMove& recorded) {
+  if (!campaign::IsOfBulk(recorded.name) || campaign::IsFactor(recorded.name)) return recorded.to;
+  const auto own = campaign::ParameterOf(rig_case, recorded.name);
+  const double from = campaign::ParseProperty(recorded.name, recorded.from);
+  const double to = campaign::ParseProperty(recorded.name, recorded.to);
+  return own && from > 0 ? base::ExactNumber(*own * to / from) : recorded.to;
+}
+
 // The same of this test: as usual what was moved as usual, else to the value that the user gave.
 std::optional<Move> MoveOf(const campaign::JointView& view, const rigs::Case& rig_case,
                            const FixedMove& recorded, const std::vector<Move>& usual_there) {
@@ -57,7 +66,7 @@ std::optional<Move> MoveOf(const campaign::JointView& view, const rigs::Case& ri
     return std::nullopt;  // it acts on none such
   }
   try {
-    return MoveTo(view, rig_case, recorded.name, recorded.to);
+    return MoveTo(view, rig_case, recorded.name, ValueHere(rig_case, recorded));
   } catch (const base::ConfigError&) {
     return std::nullopt;  // searched by now, or not what this test has
   }
@@ -122,6 +131,10 @@ UnknownTrials StoredUnknowns(const campaign::JointView& view, const MovedDesign&
   }
   for (const UnknownRun& run : RunsOf(moved.moves)) {
     const campaign::FolderCase at = FolderCaseOf(view, moved, run);
+    if (const auto failed = campaign::TimeOfFailure(at.folder)) {
+      all.core_time += *failed;
+      continue;
+    }
     if (!engine.IsComplete(at.folder)) {
       ++all.num_missing;
       continue;

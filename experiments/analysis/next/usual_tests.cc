@@ -13,6 +13,14 @@ namespace {
 
 bool Alike(double a, double b) { return std::abs(a - b) <= 0.01 * b; }
 
+// Two plates that grains slide and roll on alike.
+bool IsSamePlate(const rigs::Device& a, const rigs::Device& b, const engine::Material& powder) {
+  const engine::Material one = a.plate_material.value_or(rigs::WallMaterial{}).Over(powder);
+  const engine::Material other = b.plate_material.value_or(rigs::WallMaterial{}).Over(powder);
+  return Alike(one.sliding_friction, other.sliding_friction) &&
+         Alike(one.rolling_friction, other.rolling_friction);
+}
+
 bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
   const auto all = campaign::ExperimentsOf(view.spec);
   return std::any_of(all.begin(), all.end(), [&](const campaign::ExperimentSpec& made) {
@@ -20,7 +28,7 @@ bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
     if (rigs::KindOf(test.rig) != rigs::RigKind::kLiftedTube) return true;
     return Alike(made.device->plate_diameter, test.device->plate_diameter) &&
            Alike(made.device->lift_velocity, test.device->lift_velocity) &&
-           made.device->plate_material.has_value() == test.device->plate_material.has_value();
+           IsSamePlate(*made.device, *test.device, view.spec.powder.material);
   });
 }
 

@@ -73,7 +73,9 @@ std::string OtherSizes(const engine::SizeDistribution& taken, const engine::Size
 // searched: "density 1500 kg/m3 instead of 2500".
 std::vector<std::string> OtherProperties(const JointView& view, const base::JsonFile& file,
                                          const engine::Material& own) {
-  const nlohmann::json taken = base::ToJson(view.spec.powder.material);
+  // With what the parameters fix.
+  const nlohmann::json taken = base::ToJson(
+      campaign::TypicalCase(view.spec, 0, view.spec.coarse_graining.Target()).powder.material);
   const nlohmann::json::json_pointer stated("/powder/material");
   std::vector<std::string> texts;
   engine::Material::Visit(own, [&](const std::string& key, double value, base::FieldInfo info) {

@@ -2,12 +2,12 @@
 // prediction.json. Terminal and report read it.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::analysis {
 
@@ -20,14 +20,13 @@ enum class PredictedBy {
 constexpr PredictedBy LastOf(PredictedBy) { return PredictedBy::kSet; }
 
 inline constexpr const char* kSceneTest = "scene";  // in place of a rig's kind
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // A number that was measured on the real process, beside the prediction of it.
 struct MeasuredThere {
-  double value = kUnknown;
-  double standard_error = kUnknown;
-  double low = kUnknown;  // 90 % of what one such measurement would give, its error counted
-  double high = kUnknown;
+  double value = base::kNotKnown;
+  double standard_error = base::kNotKnown;
+  double low = base::kNotKnown;  // 90 % of what one such measurement would give, its error counted
+  double high = base::kNotKnown;
   bool is_inside = false;
   int nearest_draw = 0;            // by its place from 0
   bool nearest_is_inside = false;  // of the 90 % that this draw alone predicts
@@ -38,11 +37,11 @@ struct MeasuredThere {
 
 // A surrogate over the draws (number_surrogate.h) beside the draws themselves.
 struct PredictedSurrogate {
-  double scale_factor = 1;           // that it tells the number at
-  double left_out_error = kUnknown;  // by which it misses a draw that it was not told
-  double draws_error = kUnknown;     // by which the other draws' mean misses it
-  bool is_used = false;              // the number is by it
-  double sd = kUnknown;              // of what it gives for a set
+  double scale_factor = 1;                  // that it tells the number at
+  double left_out_error = base::kNotKnown;  // by which it misses a draw that it was not told
+  double draws_error = base::kNotKnown;     // by which the other draws' mean misses it
+  bool is_used = false;                     // the number is by it
+  double sd = base::kNotKnown;              // of what it gives for a set
 
   TALUS_FIELDS(scale_factor, left_out_error, draws_error, is_used, sd);
 };
@@ -53,15 +52,16 @@ struct PredictedNumber {
   bool is_usual = false;    // what the rig is made to measure
   int num_defined = 0;      // runs that have it
   std::string undefined{};  // why another has none
-  double mean = kUnknown;
-  double low = kUnknown;  // 90 % of single runs, whatever the set
-  double high = kUnknown;
-  double parameters_sd = kUnknown;     // of what the sets give on average
-  double run_sd = kUnknown;            // of a single run; null where no set was run twice
-  double repeats_sd = kUnknown;        // of runs of one draw; no key: run_sd may be the surrogate's
-  double parameters_share = kUnknown;  // of the variance of a single run
-  std::vector<double> by_draw{};       // mean of each draw; null where it is not defined
-  std::vector<double> by_run{};        // as in Prediction::runs; null where it is not defined
+  double mean = base::kNotKnown;
+  double low = base::kNotKnown;  // 90 % of single runs, whatever the set
+  double high = base::kNotKnown;
+  double parameters_sd = base::kNotKnown;  // of what the sets give on average
+  double run_sd = base::kNotKnown;         // of a single run; null where no set was run twice
+  double repeats_sd =
+      base::kNotKnown;  // of runs of one draw; no key: run_sd may be the surrogate's
+  double parameters_share = base::kNotKnown;  // of the variance of a single run
+  std::vector<double> by_draw{};              // mean of each draw; null where it is not defined
+  std::vector<double> by_run{};  // as in Prediction::runs; null where it is not defined
   std::optional<PredictedSurrogate> surrogate{};  // none: too few draws to stand on
   std::optional<MeasuredThere> measured{};
 
@@ -78,12 +78,14 @@ struct PredictedNumber {
 
 // A measured profile beside the simulated ones. Distances are areas between silhouettes.
 struct MeasuredImage {
-  double sad_mm2 = kUnknown;     // measured from the predicted mean
-  double sad_90_mm2 = kUnknown;  // 90 % of single runs are as near to the mean; of one run unknown
+  double sad_mm2 = base::kNotKnown;  // measured from the predicted mean
+  double sad_90_mm2 =
+      base::kNotKnown;  // 90 % of single runs are as near to the mean; of one run unknown
   bool is_inside = false;
   int nearest_draw = 0;  // whose mean is nearest to what was measured
-  double nearest_sad_mm2 = kUnknown;
-  double nearest_sad_90_mm2 = kUnknown;  // 90 % of single runs are as near to their draw's mean
+  double nearest_sad_mm2 = base::kNotKnown;
+  double nearest_sad_90_mm2 =
+      base::kNotKnown;  // 90 % of single runs are as near to their draw's mean
   bool nearest_is_inside = false;
 
   TALUS_FIELDS(sad_mm2, sad_90_mm2, is_inside, nearest_draw, nearest_sad_mm2, nearest_sad_90_mm2,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/text/duration_text.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/number_surrogate.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "experiments/trials/simulate/work_text.h"
 
 namespace talus::analysis {
@@ -81,7 +81,7 @@ std::string PlanText(const campaign::JointView& view, const PredictedCase& predi
   for (const PredictionStage& stage : stages) count += RunsIn(stage);
   const double takes = CoreTimeOf(view, predicted.rig_case, stages);
   return trials::WorkText(count, "run", takes) +
-         (takes > core_time ? ", more than the " + trials::DurationText(core_time) +
+         (takes > core_time ? ", more than the " + base::DurationText(core_time) +
                                   " of --budget; fewer --draws or --seeds take less"
                             : "");
 }

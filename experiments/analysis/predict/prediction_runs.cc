@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "base/sample.h"
 #include "base/student_factor.h"
 #include "base/text/joined.h"
@@ -83,7 +84,7 @@ double Quantile90(std::vector<Weighted> values) {
     below += v.weight;
     if (below >= optimizer::kRegionLevel * total) return v.value;
   }
-  return kUnknown;
+  return base::kNotKnown;
 }
 
 }  // namespace
@@ -160,7 +161,7 @@ std::vector<double> PredictionRuns::ByRun(const std::string& name) const {
   for (const Run& run : runs_) {
     if (!run.output) continue;
     const journal::MetricRecord* scalar = Find(*run.output, name);
-    values.push_back(scalar == nullptr ? kUnknown : scalar->value);
+    values.push_back(scalar == nullptr ? base::kNotKnown : scalar->value);
   }
   return values;
 }
@@ -197,7 +198,7 @@ std::vector<std::optional<Spread>> PredictionRuns::Summarise(Prediction& predict
   for (const std::string& name : Names(prediction.scale_factor)) {
     std::string undefined;
     const DrawValues values = ValuesOf(name, prediction.scale_factor, undefined);
-    PredictedNumber number{.name = name, .by_draw = std::vector(weights_.size(), kUnknown)};
+    PredictedNumber number{.name = name, .by_draw = std::vector(weights_.size(), base::kNotKnown)};
     std::optional<Spread> spread;
     const bool any =
         std::ranges::any_of(values.runs, [](const auto& runs) { return !runs.empty(); });

@@ -7,12 +7,12 @@
 
 #include "base/text/counted.h"
 #include "base/text/csv.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -187,7 +187,7 @@ std::string PredictionText(const Prediction& prediction,
   }
   text += ": " + std::to_string(prediction.num_ended) + " of " +
           base::Counted(prediction.num_runs, "run") + ", " +
-          trials::DurationText(prediction.core_time) + " of core time\n";
+          base::DurationText(prediction.core_time) + " of core time\n";
   if (prediction.num_failed > 0) {
     text += "  " + std::to_string(prediction.num_failed) +
             " failed, the last: " + prediction.failure + "\n";

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/not_known.h"
 #include "base/sphere.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/rigs/case/materials.h"
@@ -118,7 +118,7 @@ void AddSeries(const fs::path& file, ScalarList scalars) {
     std::istringstream cells(line);
     std::vector<double>& row = rows.emplace_back();
     for (std::string cell; std::getline(cells, cell, ',');) {
-      double& value = row.emplace_back(std::numeric_limits<double>::quiet_NaN());
+      double& value = row.emplace_back(base::kNotKnown);
       std::from_chars(cell.data(), cell.data() + cell.size(), value);
     }
     if (row.size() != names.size()) {

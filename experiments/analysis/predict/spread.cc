@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/not_known.h"
 #include "base/sample.h"
 #include "base/student_factor.h"
 #include "surrogate/standard_deviation.h"
@@ -64,7 +65,7 @@ Spread::Spread(const DrawValues& values, const rigs::Bounds& bounds) : bounds_(b
   kernel_.assign(centre_.size(), run * std::sqrt(1 + 1 / num_runs));
   error_.assign(centre_.size(), run * std::sqrt(1 / num_runs));
   is_one_run_ = num_runs < 2;
-  if (is_one_run_) parameters_sd_ = std::numeric_limits<double>::quiet_NaN();
+  if (is_one_run_) parameters_sd_ = base::kNotKnown;
 }
 
 Spread::Spread(const surrogate::Predictions& sets, double run_sd, const rigs::Bounds& bounds)
@@ -91,7 +92,7 @@ Spread Spread::OfMeans() const {
 double Spread::ParametersShare() const {
   const double sum =
       parameters_sd_ * parameters_sd_ + surrogate_sd_ * surrogate_sd_ + run_sd_ * run_sd_;
-  return sum > 0 ? parameters_sd_ * parameters_sd_ / sum : std::numeric_limits<double>::quiet_NaN();
+  return sum > 0 ? parameters_sd_ * parameters_sd_ / sum : base::kNotKnown;
 }
 
 double Spread::Below(double value, double error_sd) const {
@@ -104,8 +105,7 @@ double Spread::Below(double value, double error_sd) const {
 }
 
 Range Spread::Ninety(double error_sd) const {
-  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-  if (is_one_run_) return {.low = kNotKnown, .high = kNotKnown};
+  if (is_one_run_) return {.low = base::kNotKnown, .high = base::kNotKnown};
   const auto within = [&](double quantile, double beyond) {
     return std::clamp(quantile, bounds_.low + beyond, bounds_.high + beyond);
   };

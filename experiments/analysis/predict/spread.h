@@ -17,9 +17,9 @@
 // many runs lie in it as before.
 #pragma once
 
-#include <limits>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/rigs/observables/observable.h"
 #include "surrogate/process/gaussian_process.h"
 
@@ -71,7 +71,7 @@ class Spread {
   rigs::Bounds bounds_;
   double mean_ = 0;
   double parameters_sd_ = 0;
-  double run_sd_ = std::numeric_limits<double>::quiet_NaN();
+  double run_sd_ = base::kNotKnown;
   double surrogate_sd_ = 0;
   std::vector<double> weight_;  // of the draws that have values; sums to 1
   std::vector<double> centre_;  // m_i

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/not_known.h"
 #include "experiments/analysis/predict/number_surrogate.h"
 
 namespace talus::analysis {
@@ -33,7 +34,7 @@ void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets
   const bool ran_twice = std::isfinite(number.run_sd);
   Take(told, number);
   // The surrogate's scatter of a run is then its prior's, not the process's.
-  if (!ran_twice) number.run_sd = number.parameters_share = kUnknown;
+  if (!ran_twice) number.run_sd = number.parameters_share = base::kNotKnown;
   spread = told;
 }
 

@@ -119,9 +119,7 @@ bool IsSearchFolder(const fs::path& folder) {
 }
 
 SearchFolder ReadSearchFolder(const fs::path& folder) {
-  const fs::path absolute = fs::absolute(folder).lexically_normal();
-  SearchFolder search{
-      .name = (absolute.has_filename() ? absolute : absolute.parent_path()).filename().string()};
+  SearchFolder search{.name = base::FolderName(folder)};
   const fs::path problem_path = folder / "problem.json";
   try {
     const std::string bytes = base::ReadFile(problem_path);

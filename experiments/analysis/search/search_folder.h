@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
+
 namespace talus::analysis {
 
 // One that is searched; fixed ones are left out.
@@ -26,19 +28,19 @@ struct SearchEvaluation {
 
 // docs/optimize.md; NaN for what the result does not say.
 struct ParameterAnswer {
-  double recommended = std::numeric_limits<double>::quiet_NaN();
-  double low = std::numeric_limits<double>::quiet_NaN();  // of the credible range
-  double high = std::numeric_limits<double>::quiet_NaN();
-  double sobol_first = std::numeric_limits<double>::quiet_NaN();
-  double sobol_total = std::numeric_limits<double>::quiet_NaN();
+  double recommended = base::kNotKnown;
+  double low = base::kNotKnown;  // of the credible range
+  double high = base::kNotKnown;
+  double sobol_first = base::kNotKnown;
+  double sobol_total = base::kNotKnown;
 };
 
 struct SearchAnswer {
   std::vector<ParameterAnswer> parameters{};  // in the order of the search's
-  double predicted_value = std::numeric_limits<double>::quiet_NaN();
-  double predicted_sd = std::numeric_limits<double>::quiet_NaN();
-  double noise_sd = std::numeric_limits<double>::quiet_NaN();
-  double tied_volume = std::numeric_limits<double>::quiet_NaN();
+  double predicted_value = base::kNotKnown;
+  double predicted_sd = base::kNotKnown;
+  double noise_sd = base::kNotKnown;
+  double tied_volume = base::kNotKnown;
   int num_evaluations = std::numeric_limits<int>::max();  // that it is made of, the first ones
   std::string stopped{};                                  // why
   std::string model{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -104,7 +105,31 @@ std::vector<SearchFigure> SearchFigures(const SearchFolder& search) {
 }
 
 // A dash where there is no number.
-std::string Print(double x) { return std::isfinite(x) ? base::ShortNumber(x) : "–"; }
+std::string Print(double x, int digits = 4) {
+  return std::isfinite(x) ? base::ShortNumber(x, digits) : "–";
+}
+
+// Digits that tell the values apart: those of a large value that changes little are many.
+int ValueDigits(const SearchFolder& search) {
+  constexpr double kMost = 12;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const SearchEvaluation& one : search.evaluations) {
+    if (!one.value) continue;
+    low = std::min(low, *one.value);
+    high = std::max(high, *one.value);
+  }
+  if (!(high > low)) return 4;
+  const double shared = std::log10(std::max(std::abs(low), std::abs(high)) / (high - low));
+  return static_cast<int>(std::min(kMost, 4 + std::ceil(std::max(0.0, shared))));
+}
+
+// Why the last evaluation failed, where the first eight or more all have: the command is wrong
+// then. Null else.
+const std::string* AllFailed(const SearchFolder& search) {
+  constexpr std::size_t kHopeless = 8;
+  if (search.evaluations.size() < kHopeless || BestOf(search) != nullptr) return nullptr;
+  return &search.evaluations.back().failure;
+}
 
 std::string Standing(const SearchFolder& search) {
   const auto count = static_cast<std::size_t>(search.evaluations.size());
@@ -113,6 +138,9 @@ std::string Standing(const SearchFolder& search) {
   std::string text = std::to_string(count) + " of at most " +
                      std::to_string(search.most_evaluations) + " evaluations, " +
                      std::to_string(num_failed) + " failed. ";
+  if (const std::string* reason = AllFailed(search)) {
+    return text + "All have failed, the last: " + *reason + ".";
+  }
   if (!search.answer) return text + "The search has not ended.";
   return text + "Ended: " + search.answer->stopped + ".";
 }
@@ -132,6 +160,11 @@ std::string AnswerTable(const SearchFolder& search) {
 }
 
 std::string Answer(const SearchFolder& search) {
+  if (AllFailed(search) != nullptr) {
+    return "<p>" +
+           WithCode("There is none: mend the command; the same `talus optimize` asks it again.") +
+           "</p>\n";
+  }
   if (!search.answer) {
     return "<p>" +
            WithCode(
@@ -141,12 +174,13 @@ std::string Answer(const SearchFolder& search) {
   }
   const SearchAnswer& answer = *search.answer;
   std::string text = AnswerTable(search);
-  text += "<p>Predicted value " + Print(answer.predicted_value) + " ± " +
+  const int digits = ValueDigits(search);
+  text += "<p>Predicted value " + Print(answer.predicted_value, digits) + " ± " +
           Print(answer.predicted_sd) + " (standard deviation); " +
           (answer.noise_sd == 0 ? "evaluations without noise. "
                                 : "noise sd of one evaluation " + Print(answer.noise_sd) + ". ");
   if (const SearchEvaluation* best = BestOf(search)) {
-    text += "Lowest value seen: " + Print(*best->value) + ", by evaluation " +
+    text += "Lowest value seen: " + Print(*best->value, digits) + ", by evaluation " +
             std::to_string(best->number) + ". ";
   }
   text += "Share of the ranges that ties with the recommendation: " + Print(answer.tied_volume) +
@@ -169,7 +203,7 @@ std::string EvaluationTable(const SearchFolder& search) {
   for (const SearchEvaluation& one : search.evaluations) {
     std::vector<std::string> cells{std::to_string(one.number)};
     for (const double value : one.values) cells.push_back(Print(value));
-    cells.push_back(one.value ? Print(*one.value) : "");
+    cells.push_back(one.value ? Print(*one.value, ValueDigits(search)) : "");
     cells.push_back(one.failure);
     table += HtmlRow(cells);
   }

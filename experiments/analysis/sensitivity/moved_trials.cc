@@ -66,6 +66,7 @@ Simulated ReadSimulated(const SensitivitySetting& setting, const MovedSet& set, 
     campaign::TakeOutput(output, reference, trial);
   } catch (const base::Error&) {
     // It says nothing of the shift; the table counts it.
+    trial.cpu_s = campaign::TimeOfFailure(folder).value_or(0);
   }
   return {.observation = campaign::ObservationOf(trial, reference, std::move(field)),
           .has_ended = trial.status == journal::TrialStatus::kOk,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -229,6 +230,22 @@ std::vector<Move> UsualMoves(const campaign::JointView& view,
   return moves;
 }
 
+namespace {
+
+// A test of another mass is moved by the same ratio.
+std::function<void(rigs::Case&)> MoveBy(const std::string& name, double from, double to) {
+  if (campaign::IsFactor(name)) {
+    return [=](rigs::Case& moved) { campaign::SetParameter(moved, name, to / from); };
+  }
+  return [=](rigs::Case& moved) {
+    const double own = ValueOf(moved, name);
+    const bool by_ratio = campaign::IsOfBulk(name) && own != from && from > 0;
+    campaign::SetParameter(moved, name, by_ratio ? own * to / from : to);
+  };
+}
+
+}  // namespace
+
 Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::string& name,
             const std::string& text) {
   std::vector<std::string> known = campaign::ParameterNames();
@@ -240,6 +257,9 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
   }
   if (IsSearched(view, name)) {
     throw base::ConfigError(name + ": is searched, and its value the answer; name something fixed");
+  }
+  if (const auto missing = campaign::LawMissingFor(name, view.spec.models)) {
+    throw base::ConfigError(name + ": " + missing->why);
   }
   double to = 0;
   try {
@@ -255,9 +275,7 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
   Move move{.name = name,
             .from = base::WithUnit(from, unit),
             .to = base::WithUnit(to, unit),
-            .apply = [name, set_to = campaign::IsFactor(name) ? to / from : to](rigs::Case& moved) {
-              campaign::SetParameter(moved, name, set_to);
-            }};
+            .apply = MoveBy(name, from, to)};
   AddPlaceholders(view, c, move);
   if (const std::string why = WhyNotMoved(move, c); !why.empty()) throw base::ConfigError(why);
   return move;

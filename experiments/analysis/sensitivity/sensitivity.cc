@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/follow.h"
@@ -250,7 +251,7 @@ class Study {
     }
     for (std::size_t s = 0; s < scalars.size(); ++s) {
       const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
-      const double known = shift.is_known[k] ? 1 : campaign::kNotKnown;
+      const double known = shift.is_known[k] ? 1 : base::kNotKnown;
       move.outputs.push_back({.experiment = NameOf(view_, e),
                               .output = scalars[s].name,
                               .shift = known * shift.mean[k] / std::sqrt(variance[k]),

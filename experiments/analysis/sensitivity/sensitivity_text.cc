@@ -8,11 +8,11 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/journal/record_json.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -74,7 +74,7 @@ std::string HeadText(const SensitivityTable& table) {
   text += "\n  simulated         " + base::Counted(table.num_simulations, "simulation") +
           " at scale factor " + ShortNumber(table.scale_factor);
   if (table.core_time > 0) {
-    text += ", " + trials::DurationText(table.core_time) + " of processor time";
+    text += ", " + base::DurationText(table.core_time) + " of processor time";
   }
   return text + "\n";
 }

@@ -122,6 +122,9 @@ std::string AlarmText(const Alarm& a) {
              " tell its bias, and the ranges are wider for it; more simulations there would "
              "settle it (" +
              ResumeCommand(kMoreSimulations) + ")";
+    case AlarmKind::kGoalMissed:
+      return "the goal is not reached: " + a.reason.value_or("") +
+             " (`talus next DIR --for CASE` ranks what would narrow it)";
     case AlarmKind::kFewSimulations:
       return experiment + " has only " + value +
              " simulations at the smallest scale factor: so few are trusted less, and the joint "

@@ -32,6 +32,7 @@ enum class AlarmKind {
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
   kBudgetEnded,          // the budget ended the search before its stopping rule did, for
                          // `reason`; about `value` simulations more
+  kGoalMissed,           // the search ended without what the spec's goal asks for: `reason`
   kFewSimulations,       // `value` at the smallest scale factor: the region may be too small
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`

@@ -3,26 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/not_known.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"
 
 namespace talus::campaign {
 namespace {
 
-constexpr double kContradicts = 3;       // standard deviations of a prior
-constexpr double kPulled = 1;            // of them, from which on a prior may be in the way
-constexpr double kNarrow = 1.0 / 3;      // of the searched range: such a prior holds without a pull
-constexpr double kSurprise = 2;          // standard deviations that are no luck any more
-constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
-constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
-constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judged from
-constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
-constexpr int kEnoughAtFinest = 12;  // simulations of each experiment (bench/twins/dem_twins.py)
+constexpr double kSurprise = 2;         // standard deviations that are no luck any more
+constexpr double kLeastShare = 0.1;     // of the predicted value: less is not worth a word
+constexpr double kLeastOfFloor = 0.25;  // of the experiment's noise floor: neither is this
 
 bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
   const auto same = [](const journal::MetricRecord& one, const journal::MetricRecord& other) {
@@ -32,9 +28,12 @@ bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
   return std::ranges::equal(a.metrics, b.metrics, same);
 }
 
-// The set without the scatter of its simulations, which is what a model of mean heaps predicts.
-double WithoutScatter(const ResultConfirmed& confirmed) {
-  if (!confirmed.profile_sad_mm2 || confirmed.num_trials < 2) return confirmed.mean;
+// The set without the scatter of its simulations, which is what a model of mean heaps predicts; of
+// another objective than the SAD its mean.
+double WithoutScatter(const Answer& answer, const ResultConfirmed& confirmed) {
+  if (!MinimisesSad(answer) || !confirmed.profile_sad_mm2 || confirmed.num_trials < 2) {
+    return confirmed.mean;
+  }
   return std::min(confirmed.mean, SadWithoutScatter(confirmed));
 }
 
@@ -42,10 +41,12 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
   const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (confirmed == nullptr || standing == nullptr) return std::nullopt;
-  const double mean = WithoutScatter(*confirmed);
+  const double mean = WithoutScatter(answer, *confirmed);
   const double excess = mean - standing->predicted;
-  const double least = std::max(kLeastShare * standing->predicted,
-                                kLeastOfFloor * experiment.noise_floor.value_or(0));
+  const std::optional<double> floor =
+      MinimisesSad(answer) ? experiment.noise_floor : std::nullopt;  // [mm²]
+  const double least =
+      std::max(kLeastShare * standing->predicted, kLeastOfFloor * floor.value_or(0));
   const double error =
       std::hypot(ErrorOf(answer, experiment, *confirmed), OrZero(standing->predicted_sd));
   if (!(excess > kSurprise * error) || !(excess > least)) return std::nullopt;
@@ -54,31 +55,7 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
                .unit = answer.objective_unit,
                .value = excess,
                .shown = mean,
-               .noise_floor = experiment.noise_floor};
-}
-
-// A prior may keep the answer from where a set would fit: one that the answer pulls at, or a narrow
-// one, which heavy tails give in to so that nothing is pulled.
-bool MayHold(const ResultParameter& p) {
-  if (!p.prior) return false;
-  const optimizer::Parameter range = p.Range();
-  const double width = range.ToUnit(p.prior->high) - range.ToUnit(p.prior->low);
-  return std::abs(p.prior->offset) >= kPulled || width < kNarrow;
-}
-
-// The parameter among those that the posterior has moved farthest, in the prior's standard
-// deviations.
-std::optional<std::string> HeldByItsPrior(const Answer& answer) {
-  const ResultParameter* farthest = nullptr;
-  for (const ResultParameter& p : answer.parameters) {
-    if (!MayHold(p)) continue;
-    if (farthest != nullptr && std::abs(p.prior->offset) <= std::abs(farthest->prior->offset)) {
-      continue;
-    }
-    farthest = &p;
-  }
-  if (farthest == nullptr) return std::nullopt;
-  return farthest->name;
+               .noise_floor = floor};
 }
 
 // The best trial of the search for the experiment at the scale factor.
@@ -101,7 +78,7 @@ void AddGrainWarnings(const CampaignSpec& spec, Answer& answer) {
   const double finest = spec.coarse_graining.Finest();
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), finest);
-    if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
+    if (!rigs::IsRoundHeap(rig_case.rig.kind)) continue;
     const double across = rigs::GrainsAcrossPlate(rig_case);
     if (across >= rigs::kAdvisedAcross) continue;
     answer.warnings.push_back({.kind = AlarmKind::kFewGrains,
@@ -123,7 +100,15 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
 // by.
 double FarthestOff(const Answer& answer, const ResultCandidate& candidate) {
   const std::vector<MeasurementFit> distances = DistancesOf(answer, candidate);
-  return distances.empty() ? kNotKnown : distances.front().off;
+  return distances.empty() ? base::kNotKnown : distances.front().off;
+}
+
+// How far the set is off in this measurement; NaN where that is not known.
+double OffIn(const Answer& answer, const ResultCandidate& candidate, const MeasurementFit& fit) {
+  for (const MeasurementFit& one : DistancesOf(answer, candidate)) {
+    if (one.experiment == fit.experiment && one.number == fit.number) return one.off;
+  }
+  return base::kNotKnown;
 }
 
 // Another set that was simulated again and comes clearly nearer.
@@ -163,8 +148,12 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
   if (const ResultCandidate* nearer = NearerSet(answer)) {
     std::vector<std::string> names;
     for (const ResultParameter& p : answer.parameters) names.push_back(p.name);
+    const bool nearer_here =
+        OffIn(answer, *nearer, fit) < OffIn(answer, answer.confirmed.front(), fit);
     return BracketedSet(names, nearer->values) + ", simulated again, too, " +
-           (Misses(answer, *nearer) ? "misses less" : "fits");
+           (!Misses(answer, *nearer) ? "fits"
+            : nearer_here            ? "misses less"
+                                     : "misses less on the whole");
   }
   if (!answer.posterior && !HasRanges(answer)) return "there are too few simulations for a model";
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
@@ -177,20 +166,6 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
     return "its region is still more the surrogate's than the measurements'";
   }
   return std::nullopt;
-}
-
-// The regions of several experiments are small, and the errors of their surrogates weigh more. A
-// search that ended since more simulations would hardly narrow the ranges has counted that in.
-bool HasFewSimulations(const Answer& answer) {
-  const ResultPosterior& p = *answer.posterior;
-  const bool is_done = answer.stop.rule && answer.stop.rule->rule == optimizer::StopRule::kShare;
-  return p.experiments.size() > 1 && !p.is_extrapolated && p.unlearnt_scale_factors.empty() &&
-         p.fewest_at_finest < kEnoughAtFinest && !is_done;
-}
-
-// The experiment with the fewest simulations at the smallest scale factor.
-std::string MostCautious(const ResultPosterior& posterior) {
-  return std::ranges::max_element(posterior.experiments, {}, &ResultStanding::caution)->name;
 }
 
 void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
@@ -309,83 +284,6 @@ std::vector<Alarm> AlikeAlarms(const std::vector<journal::TrialRecord>& trials,
   return alarms;
 }
 
-std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
-  std::vector<Alarm> alarms;
-  if (!answer.posterior) return alarms;
-  const ResultPosterior& p = *answer.posterior;
-  for (const ResultStanding& e : p.experiments) {
-    if (!(e.implausibility > kImplausible)) continue;
-    alarms.push_back({.kind = AlarmKind::kImplausible,
-                      .parameter = HeldByItsPrior(answer),
-                      .experiment = e.name,
-                      .value = e.implausibility});
-  }
-  if (Disagree(p.tension, p.raw_coverage)) {
-    alarms.push_back({.kind = AlarmKind::kDisagree, .experiment = p.odd, .value = p.tension});
-  }
-  if (p.num_left_out >= kFewestLeftOut && p.raw_coverage < kLeastCoverage) {
-    alarms.push_back(
-        {.kind = AlarmKind::kPoorModel, .value = p.raw_coverage, .widened = std::sqrt(p.temper)});
-  }
-  if (p.is_extrapolated) {
-    alarms.push_back({.kind = AlarmKind::kExtrapolated, .scale_factor = p.target_scale_factor});
-  }
-  for (const double level : p.unlearnt_scale_factors) {
-    alarms.push_back({.kind = AlarmKind::kUnlearntScaleFactor, .scale_factor = level});
-  }
-  if (HasFewSimulations(answer)) {
-    alarms.push_back({.kind = AlarmKind::kFewSimulations,
-                      .experiment = MostCautious(p),
-                      .value = 1.0 * p.fewest_at_finest});
-  }
-  return alarms;
-}
-
-std::vector<Alarm> CorrelationAlarms(const Answer& all) {
-  const Answer answer = AskedPart(all);
-  const auto pair = TiedPair(answer.correlation);
-  // Draws of a small region may correlate as strongly as they like.
-  const bool is_open = answer.verdict && (answer.verdict->kind == VerdictKind::kCurve ||
-                                          answer.verdict->kind == VerdictKind::kSeparate);
-  if (!pair || !is_open) return {};
-  return {{.kind = AlarmKind::kCorrelated,
-           .parameter = answer.parameters[pair->first].name,
-           .other_parameter = answer.parameters[pair->second].name,
-           .value = answer.correlation[pair->first][pair->second]}};
-}
-
-std::vector<Alarm> BoundAlarms(const Answer& all) {
-  const Answer answer = AskedPart(all);
-  std::vector<Alarm> alarms;
-  for (const optimizer::BoundWarning& bound : optimizer::BoundWarnings(RecommendedPoint(answer))) {
-    alarms.push_back(
-        {.kind = AlarmKind::kBound,
-         .parameter = answer.parameters[static_cast<std::size_t>(bound.parameter)].name,
-         .side = bound.is_upper ? "upper" : "lower"});
-  }
-  return alarms;
-}
-
-std::vector<Alarm> PriorAlarms(const Answer& answer) {
-  std::vector<Alarm> alarms;
-  for (const ResultParameter& p : answer.parameters) {
-    if (!p.prior || !(std::abs(p.prior->offset) > kContradicts)) continue;
-    alarms.push_back({.kind = AlarmKind::kContradictsPrior,
-                      .parameter = p.name,
-                      .value = p.prior->offset,
-                      .reason = p.prior->text});
-  }
-  return alarms;
-}
-
-std::vector<Alarm> BudgetAlarms(const Answer& answer) {
-  if (!answer.unsettled) return {};
-  Alarm alarm{.kind = AlarmKind::kBudgetEnded,
-              .reason = answer.stop.Text() + ", and " + answer.unsettled->why};
-  if (answer.unsettled->num_more > 0) alarm.value = answer.unsettled->num_more;
-  return {alarm};
-}
-
 void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   std::vector<Alarm>& alarms = answer.warnings;
   Append(AlikeAlarms(basis.trials, answer.experiments), alarms);
@@ -400,6 +298,7 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   Append(PosteriorAlarms(answer), alarms);
   Append(PriorAlarms(answer), alarms);
   Append(BudgetAlarms(answer), alarms);
+  Append(GoalAlarms(basis.spec, basis.goal), alarms);
   Append(CorrelationAlarms(answer), alarms);
   Append(BoundAlarms(answer), alarms);
   AddGrainWarnings(basis.spec, answer);

@@ -2,9 +2,11 @@
 // terminal, in result.json, on the card and in the report.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
@@ -16,6 +18,7 @@ struct AlarmBasis {
   const journal::CampaignRecord& campaign;
   const std::vector<Reference>& references;  // one an experiment
   const std::vector<journal::TrialRecord>& trials;
+  const std::optional<GoalState>& goal;  // the last look at the spec's goal
 };
 
 // The answer is complete but for these, which it gains.
@@ -53,5 +56,8 @@ std::vector<Alarm> PriorAlarms(const Answer& answer);
 
 // Whether the budget ended the search before its stopping rule did.
 std::vector<Alarm> BudgetAlarms(const Answer& answer);
+
+// Whether it ended without what its goal asks for; not where the goal itself ended it.
+std::vector<Alarm> GoalAlarms(const CampaignSpec& spec, const std::optional<GoalState>& goal);
 
 }  // namespace talus::campaign

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "experiments/campaign/answer/alarm.h"
 #include "experiments/campaign/answer/result_candidate.h"
 #include "experiments/campaign/answer/result_held_out.h"
@@ -33,11 +34,11 @@ struct ResultParameter {
   double searched_low = 0;
   double searched_high = 0;
   optimizer::Scale scale = optimizer::Scale::kLinear;  // that it is searched on
-  double credible_low = kNotKnown;  // 90 %, for all parameters asked for together; a nuisance's
-                                    // by itself
-  double credible_high = kNotKnown;
-  double sobol_first = kNotKnown;
-  double sobol_total = kNotKnown;
+  double credible_low = base::kNotKnown;  // 90 %, for all parameters asked for together; a
+                                          // nuisance's by itself
+  double credible_high = base::kNotKnown;
+  double sobol_first = base::kNotKnown;
+  double sobol_total = base::kNotKnown;
   std::optional<ResultPrior> prior{};        // none: uniform
   std::optional<ResultNuisance> nuisance{};  // none: it is asked for
 

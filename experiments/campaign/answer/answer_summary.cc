@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/joined.h"
+#include "base/text/num_characters.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/campaign/answer/fit.h"
@@ -13,15 +15,12 @@
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 namespace {
 
-// To a width in characters, of which UTF-8 has one to four bytes.
 std::string Padded(std::string text, std::size_t width) {
-  const auto size = static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  const std::size_t size = base::NumCharacters(text);
   if (size < width) text.append(width - size, ' ');
   return text;
 }
@@ -248,7 +247,7 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
   }
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
           std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
-          " core hours, " + trials::DurationText(r.cost.elapsed) + " elapsed\n";
+          " core hours, " + base::DurationText(r.cost.elapsed) + " elapsed\n";
   text += ReusedLines(r.reused);
   text += "  model             " + r.model + "\n";
   for (const Alarm& alarm : r.warnings) text += "  warning: " + AlarmText(alarm) + "\n";

@@ -240,11 +240,13 @@ void AddConfirmation(const optimizer::Answer& answer, Planner& planner,
   AddStandardErrors(planner, answer.point, all, evidence.spec.coarse_graining.Target(), result);
 }
 
-ResultConditions ConditionsOf(const CampaignSpec& spec) {
+// Those of the set at `point`: Young's modulus may be fixed, or searched, among the parameters.
+ResultConditions ConditionsOf(const CampaignSpec& spec, const Eigen::VectorXd& point) {
+  const double target = spec.coarse_graining.Target();
   ResultConditions conditions{
-      .scale_factor = spec.coarse_graining.Target(),
+      .scale_factor = target,
       .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
-      .youngs_modulus = spec.powder.material.youngs_modulus,
+      .youngs_modulus = CaseAt(spec, point, 0, target).powder.material.youngs_modulus,
       .adhesion = std::string(base::NameOf(spec.models.adhesion)),
       .rolling = std::string(base::NameOf(spec.models.rolling))};
   if (spec.engine.kind == EngineKind::kCommand) {
@@ -254,8 +256,7 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     conditions.devices.push_back(
         {.experiment = experiments[e].name,
-         .text = rigs::DeviceText(
-             TypicalCase(spec, static_cast<int>(e), spec.coarse_graining.Target()).rig)});
+         .text = rigs::DeviceText(TypicalCase(spec, static_cast<int>(e), target).rig)});
   }
   return conditions;
 }
@@ -367,7 +368,7 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
                          .finest = evidence.spec.coarse_graining.Levels().back()});
   }
   AddAgreement(planner, evidence, result);
-  result.conditions = ConditionsOf(evidence.spec);
+  result.conditions = ConditionsOf(evidence.spec, answer->point);
   result.cost = CostOf(planner, evidence);
   result.reused = ReusedBy(planner.trials(), CoresOfTrial(evidence.spec));
   const auto kind = VerdictKindOf(result);
@@ -375,7 +376,8 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
   AddAlarms({.spec = evidence.spec,
              .campaign = evidence.campaign,
              .references = evidence.references,
-             .trials = planner.trials()},
+             .trials = planner.trials(),
+             .goal = planner.goal()},
             result);
   if (kind) result.verdict->text = HeadlineText(result);
   return result;

@@ -21,7 +21,7 @@ struct CampaignEvidence {
   double elapsed = 0;  // [s]
 };
 
-// Nothing when no trial has succeeded.
+// Nothing when no trial has succeeded, or none of one of the experiments.
 std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidence);
 
 }  // namespace talus::campaign

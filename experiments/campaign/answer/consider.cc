@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/nearest.h"
+#include "base/not_known.h"
 #include "base/problems.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
@@ -22,7 +22,6 @@ namespace talus::campaign {
 namespace {
 
 constexpr std::size_t kMostNear = 5;
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
                                      const std::vector<Reference>& references,
@@ -127,6 +126,16 @@ std::vector<double> ValuesOf(const JointView& view, const GivenSet& given,
   return values;
 }
 
+// With what is fixed; NaN where a value is not given.
+std::vector<double> NativeOf(const optimizer::ParameterSpace& space, const GivenSet& given) {
+  std::vector<double> native = space.ToNative(Eigen::VectorXd::Constant(given.point.size(), 0.5));
+  const std::vector<int> free = space.Free();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    native[static_cast<std::size_t>(free[i])] = given.values[i];
+  }
+  return native;
+}
+
 }  // namespace
 
 GivenSet ReadSet(const optimizer::ParameterSpace& space,
@@ -135,8 +144,8 @@ GivenSet ReadSet(const optimizer::ParameterSpace& space,
   std::vector<std::string> names;
   const std::vector<int> free = space.Free();
   GivenSet read{
-      .point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), kNotGiven),
-      .values = std::vector<double>(free.size(), kNotGiven)};
+      .point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), base::kNotKnown),
+      .values = std::vector<double>(free.size(), base::kNotKnown)};
   for (std::size_t i = 0; i < free.size(); ++i) {
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
     names.push_back(p.name);
@@ -154,6 +163,11 @@ GivenSet ReadSet(const optimizer::ParameterSpace& space,
     } catch (const base::ConfigError& error) {
       problems.Add(p.name, error.what());
     }
+  }
+  constexpr double kTyped =
+      2e-3;  // relative: an answer that lies on one is typed with three digits
+  if (const auto broken = space.BrokenBy(NativeOf(space, read), kTyped)) {
+    problems.Add("constraints", "the set breaks " + *broken);
   }
   for (const auto& [name, value] : set) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
@@ -250,8 +264,9 @@ std::string ConsideredJson(const ConsideredSet& c) {
   }
   json["nearest_trials"] = nlohmann::ordered_json::array();
   for (const NearTrial& near : c.nearest) {
+    const auto at = static_cast<std::size_t>(near.trial.experiment);
     nlohmann::ordered_json trial{{"id", near.trial.id},
-                                 {"experiment", near.trial.experiment},
+                                 {"experiment", c.records.at(at).name},
                                  {"scale_factor", near.trial.scale_factor},
                                  {"distance", near.distance},
                                  {"values", near.trial.native}};

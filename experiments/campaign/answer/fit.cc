@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/not_known.h"
 #include "base/student_factor.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/outputs/levels.h"
@@ -91,7 +92,7 @@ Meets NumberMeets(const ResultNumber& measured, double off, double simulated_err
 double DistanceOfImage(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
   if (confirmed.over_floor) return *confirmed.over_floor / kCloseRuns;
   const auto limit = LimitWithoutRuns(experiment, confirmed);
-  if (!limit || !confirmed.profile_sad_mm2) return kNotKnown;
+  if (!limit || !confirmed.profile_sad_mm2) return base::kNotKnown;
   return SadWithoutScatter(confirmed) / *limit;
 }
 
@@ -123,7 +124,8 @@ double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
 }
 
 double SadWithoutScatter(const ResultConfirmed& confirmed) {
-  const double all = confirmed.profile_sad_mm2.value_or(confirmed.sad_mm2.value_or(kNotKnown));
+  const double all =
+      confirmed.profile_sad_mm2.value_or(confirmed.sad_mm2.value_or(base::kNotKnown));
   const double scatter = ScatterOfOne(confirmed);
   return std::sqrt(std::max(0.0, all * all - scatter * scatter / confirmed.num_trials));
 }
@@ -150,8 +152,8 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
     fit.meets = Meets::kNo;
     return fit;
   }
-  double simulated = kNotKnown;
-  double error = kNotKnown;
+  double simulated = base::kNotKnown;
+  double error = base::kNotKnown;
   int degrees = 0;
   if (confirmed != nullptr && std::isfinite(confirmed->scalars.at(number).mean)) {
     simulated = confirmed->scalars[number].mean;

@@ -29,6 +29,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/campaign/answer/answer.h"
 
 namespace talus::campaign {
@@ -47,8 +48,8 @@ struct MeasurementFit {
   std::string experiment{};
   std::string number{};  // name of its metric; empty: the image
   Meets meets = Meets::kUnknown;
-  double off = kNotKnown;    // of an image in noise floors, of a number in standard errors
-  double share = kNotKnown;  // of an image: SAD of the mean profile over the powder's area
+  double off = base::kNotKnown;    // of an image in noise floors, of a number in standard errors
+  double share = base::kNotKnown;  // of an image: SAD of the mean profile over the powder's area
   std::optional<std::string> undefined{};  // of a number: why no confirming trial has one
 };
 

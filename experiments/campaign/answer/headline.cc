@@ -98,7 +98,7 @@ std::string KnownText(const Told& told) {
     const ResultParameter& p = told.at(i);
     if (p.Width() >= kWideRange || IsKnownByPrior(p)) continue;
     known.push_back(told.names[i] + " " + Short(p.value) + ShownUnitAfter(p) +
-                    " (90 %: " + EndsText(p) + ")");
+                    " (90 %: " + EndsText(p) + (OwesToItsPrior(p) ? ", its prior counted)" : ")"));
   }
   return known.empty() ? "" : "They determine " + base::Listed(known) + ".";
 }
@@ -179,7 +179,8 @@ std::string LeftOpen(const Answer& answer) {
   std::vector<std::string> open;
   for (const MeasurementFit& fit : FitsOf(answer)) {
     const bool is_judged = !std::isnan(fit.off);  // and is no fit, or it would be met
-    if (fit.meets == Meets::kUnknown && is_judged) open.push_back(SpokenOf(fit));
+    const bool is_held_out = answer.posterior && StandingOf(answer, fit.experiment) == nullptr;
+    if (fit.meets == Meets::kUnknown && is_judged && !is_held_out) open.push_back(SpokenOf(fit));
   }
   return base::Listed(open);
 }

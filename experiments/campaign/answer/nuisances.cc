@@ -9,11 +9,20 @@
 namespace talus::campaign {
 namespace {
 
+constexpr double kPulled = 1;        // standard deviations of a prior: from then on it may hold
+constexpr double kNarrow = 1.0 / 3;  // of the searched range: such a prior holds without a pull
 constexpr double kDetermined = 0.5;  // of the prior's 90 % range
 
 double PriorWidth(const ResultParameter& p) {
   if (!p.prior) return optimizer::kRegionLevel;  // of a flat one, that share of its range
   return p.Range().ToUnit(p.prior->high) - p.Range().ToUnit(p.prior->low);
+}
+
+// A prior may keep the answer from where a set would fit: one that the answer pulls at, or a narrow
+// one, which heavy tails give in to so that nothing is pulled.
+bool MayHold(const ResultParameter& p) {
+  if (!p.prior) return false;
+  return std::abs(p.prior->offset) >= kPulled || PriorWidth(p) < kNarrow;
 }
 
 }  // namespace
@@ -40,6 +49,23 @@ bool IsKnownByPrior(const ResultParameter& p) {
   constexpr double kSameMean = 0.5;   // of the prior's standard deviation
   if (!p.prior) return false;
   return p.Width() >= kSameWidth * PriorWidth(p) && std::abs(p.prior->offset) <= kSameMean;
+}
+
+bool OwesToItsPrior(const ResultParameter& p) {
+  return p.prior && p.Width() >= kDetermined * PriorWidth(p);
+}
+
+std::optional<std::string> HeldByItsPrior(const Answer& answer) {
+  const ResultParameter* farthest = nullptr;
+  for (const ResultParameter& p : answer.parameters) {
+    if (!MayHold(p)) continue;
+    if (farthest != nullptr && std::abs(p.prior->offset) <= std::abs(farthest->prior->offset)) {
+      continue;
+    }
+    farthest = &p;
+  }
+  if (farthest == nullptr) return std::nullopt;
+  return farthest->name;
 }
 
 std::vector<std::size_t> AskedParameters(const Answer& answer) {

@@ -2,6 +2,7 @@
 // them: its verdict, its ranges and its region are of those asked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,13 @@ std::vector<T> OnlyThose(const std::vector<std::size_t>& indices, const std::vec
 
 // Whether the posterior is about the prior: what is stated of it was known beforehand.
 bool IsKnownByPrior(const ResultParameter& parameter);
+
+// The parameter whose prior may keep the answer from where a set would fit; of several the one that
+// the posterior has moved farthest, in standard deviations of its prior.
+std::optional<std::string> HeldByItsPrior(const Answer& answer);
+
+// Whether its range is no narrower than half of the prior's: the measurements alone did not make
+// it.
+bool OwesToItsPrior(const ResultParameter& parameter);
 
 }  // namespace talus::campaign

@@ -2,27 +2,26 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "experiments/campaign/plan/candidates.h"
 
 namespace talus::campaign {
 
-inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 inline double OrZero(double error) { return std::isfinite(error) ? error : 0; }  // where not known
 
 // A number of an experiment, the mean over the confirming trials.
 struct ResultScalar {
   std::string name{};
   int num_trials = 0;  // that have it
-  double mean = kNotKnown;
+  double mean = base::kNotKnown;
   // The mean's, by the scatter within all sets that were simulated again; where each has one trial,
   // by the model.
-  double standard_error = kNotKnown;
+  double standard_error = base::kNotKnown;
   int degrees = 0;  // of freedom that the standard error has; 0: it is the model's, or not known
   std::optional<std::string> undefined{};  // why none of the trials has a value
 
@@ -33,10 +32,10 @@ struct ResultScalar {
 // How the confirming trials of one experiment came out.
 struct ResultConfirmed {
   std::string name{};
-  int num_trials = 0;                 // that succeeded
-  double mean = kNotKnown;            // of the objective
-  double standard_error = kNotKnown;  // of that mean; not known for one trial
-  std::optional<double> sad_mm2{};    // mean SAD of the trials, whatever the objective
+  int num_trials = 0;                       // that succeeded
+  double mean = base::kNotKnown;            // of the objective
+  double standard_error = base::kNotKnown;  // of that mean; not known for one trial
+  std::optional<double> sad_mm2{};          // mean SAD of the trials, whatever the objective
   // The mean's standard error and its degrees of freedom, as ResultScalar has them.
   std::optional<double> sad_standard_error{};
   int degrees = 0;

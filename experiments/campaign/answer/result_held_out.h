@@ -1,11 +1,11 @@
 // An experiment that the answer is made without, as the answer predicts it and as it was measured.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::campaign {
 
@@ -31,12 +31,12 @@ struct PredictedNumber {
 struct ResultHeldOut {
   std::string name;
   // Objective of the predicted mean image at the answer; NaN without images.
-  double predicted = std::numeric_limits<double>::quiet_NaN();
-  double predicted_sd = std::numeric_limits<double>::quiet_NaN();
+  double predicted = base::kNotKnown;
+  double predicted_sd = base::kNotKnown;
   // At the answer [standard deviations], and the least over the others' joint 90 % region; NaN
   // where there is no posterior yet to predict it by.
-  double implausibility = std::numeric_limits<double>::quiet_NaN();
-  double least_implausibility = std::numeric_limits<double>::quiet_NaN();
+  double implausibility = base::kNotKnown;
+  double least_implausibility = base::kNotKnown;
   std::vector<PredictedNumber> numbers{};
 
   static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},

@@ -1,18 +1,18 @@
 // What result.json says of a parameter's prior, and of one that is searched but not asked for.
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::campaign {
 
 // What was known of a parameter beforehand, SI.
 struct ResultPrior {
-  std::string text{};                                     // as the spec gives it: "0.35 ± 0.05"
-  double low = std::numeric_limits<double>::quiet_NaN();  // 90 % of it, inside the searched range
-  double high = std::numeric_limits<double>::quiet_NaN();
+  std::string text{};            // as the spec gives it: "0.35 ± 0.05"
+  double low = base::kNotKnown;  // 90 % of it, inside the searched range
+  double high = base::kNotKnown;
   double offset = 0;  // of the posterior's mean from its, in its standard deviations
 
   static constexpr base::FieldKey kKeys[] = {

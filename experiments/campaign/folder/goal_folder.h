@@ -4,31 +4,29 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "optimizer/stop_reason.h"
 
 namespace talus::campaign {
 
 // goal.json of one look; widths in the observable's unit as results have it.
 struct GoalState {
-  static constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-
   std::string goal{};       // what was asked for, as GoalText writes it
   std::int64_t after = 0;   // trials of noise and search that had ended
   int num_experiments = 0;  // that it was judged with, and parameters
   int num_parameters = 0;
-  double half_width = kNotKnown;                  // of the 90 %: the next two in squares
-  double parameters_half_width = kNotKnown;       // what the sets leave open
-  double surrogate_half_width = kNotKnown;        // of the number as a function of the sets
-  double least_half_width = kNotKnown;            // expected once every set had been simulated
-  int num_runs = 0;                               // of all looks so far
-  double core_time = 0;                           // of these [s]
-  std::optional<optimizer::StopReason> reason{};  // why the search may end; none: it goes on
+  double half_width = base::kNotKnown;             // of the 90 %: the next two in squares
+  double parameters_half_width = base::kNotKnown;  // what the sets leave open
+  double surrogate_half_width = base::kNotKnown;   // of the number as a function of the sets
+  double least_half_width = base::kNotKnown;       // expected once every set had been simulated
+  int num_runs = 0;                                // of all looks so far
+  double core_time = 0;                            // of these [s]
+  std::optional<optimizer::StopReason> reason{};   // why the search may end; none: it goes on
 
   static constexpr base::FieldKey kKeys[] = {{"after", "after_trials"},
                                              {"half_width", "half_width_90"},

@@ -1,8 +1,8 @@
 #include "experiments/campaign/folder/progress.h"
 
+#include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 
@@ -37,7 +37,7 @@ std::string ProgressText(const TrialProgress& trial) {
   } else {
     text += ": " + OutcomeText(trial);
   }
-  return text + ", " + trials::DurationText(trial.duration);
+  return text + ", " + base::DurationText(trial.duration);
 }
 
 std::string ProgressText(const CampaignProgress& campaign) {
@@ -52,7 +52,7 @@ std::string ProgressText(const CampaignProgress& campaign) {
             std::to_string(campaign.best_trial) + ")";
   }
   if (campaign.seconds_left) {
-    text += ", at most " + trials::DurationText(*campaign.seconds_left) + " left";
+    text += ", at most " + base::DurationText(*campaign.seconds_left) + " left";
   }
   return text;
 }

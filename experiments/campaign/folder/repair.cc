@@ -65,10 +65,9 @@ journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
+    if (experiment.frame_json.empty()) continue;  // numbers only: a picture there is the user's
     experiment.aehp_png = IfThere(place / kAehp);
-    if (experiment.aehp_png.empty() && !experiment.frame_json.empty()) {
-      throw base::Error((place / kAehp).string() + ": is missing");
-    }
+    if (experiment.aehp_png.empty()) throw base::Error((place / kAehp).string() + ": is missing");
     experiment.aehp_sd_png = IfThere(place / kAehpSd);
     for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
       experiment.runs[r].png = base::ReadFile(place / RunFile(r));

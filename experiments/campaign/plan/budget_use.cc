@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text/duration_text.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
-#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
 namespace {
@@ -29,6 +29,7 @@ double TimeOfOne(std::span<const journal::TrialRecord> trials, int experiment, d
   for (const bool own : {true, false}) {
     for (const journal::TrialRecord& trial : trials) {
       if (!HasEnded(trial) || (own && trial.experiment != experiment)) continue;
+      if (Duration(trial) == 0) continue;  // taken from elsewhere, or found after a kill
       const double away = std::abs(std::log(trial.scale_factor / factor));
       if (away > nearest) continue;
       if (away < nearest) sum = count = 0;
@@ -145,12 +146,12 @@ std::string UseText(const BudgetOptions& budget, const BudgetUse& use, double el
                      (budget.simulations > 0 ? " of " + std::to_string(budget.simulations) : "") +
                      " simulations";
   if (budget.core_time) {
-    text += ", " + trials::DurationText(use.core_seconds) + " of " +
-            trials::DurationText(*budget.core_time) + " core time";
+    text += ", " + base::DurationText(use.core_seconds) + " of " +
+            base::DurationText(*budget.core_time) + " core time";
   }
   if (budget.wall_clock) {
-    text += ", " + trials::DurationText(std::min(elapsed, *budget.wall_clock)) + " of " +
-            trials::DurationText(*budget.wall_clock);
+    text += ", " + base::DurationText(std::min(elapsed, *budget.wall_clock)) + " of " +
+            base::DurationText(*budget.wall_clock);
   }
   return text;
 }

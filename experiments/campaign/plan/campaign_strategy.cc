@@ -1,8 +1,8 @@
 #include "experiments/campaign/plan/campaign_strategy.h"
 
-#include <limits>
 #include <utility>
 
+#include "base/not_known.h"
 #include "experiments/campaign/plan/usual_cost.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/observables/observable.h"
@@ -88,8 +88,7 @@ optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Re
       .value = value.value_or(0),
       .field = std::move(field)};
   for (const journal::ScalarRecord& scalar : reference.scalars()) {
-    observation.scalars.push_back(
-        trial.Metric(scalar.name).value_or(std::numeric_limits<double>::quiet_NaN()));
+    observation.scalars.push_back(trial.Metric(scalar.name).value_or(base::kNotKnown));
   }
   return observation;
 }

@@ -8,6 +8,14 @@
 
 namespace talus::campaign {
 
+namespace {
+
+bool IsRunning(const journal::TrialRecord& trial) {
+  return trial.status == journal::TrialStatus::kRunning;
+}
+
+}  // namespace
+
 double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores) {
   const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * num_cores;
   return std::isfinite(seconds) ? seconds : 0;
@@ -27,12 +35,16 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   usual_.Clear();
   double sum = 0;
   for (const journal::TrialRecord& trial : trials) {
+    if (IsRunning(trial)) continue;
     const double seconds = MeasuredCoreTime(trial, spec_);
     usual_.Add(trial.experiment, trial.scale_factor, seconds);
     sum += seconds;
   }
   for (const journal::TrialRecord& trial : trials) {
-    if (MeasuredCoreTime(trial, spec_) == 0) sum += OfOne(trial.experiment, trial.scale_factor);
+    const double measured = MeasuredCoreTime(trial, spec_);
+    if (!IsRunning(trial) && measured > 0) continue;
+    // What an earlier attempt at one that runs took is a part of it.
+    sum += std::max(IsRunning(trial) ? measured : 0, OfOne(trial.experiment, trial.scale_factor));
   }
   return sum;
 }

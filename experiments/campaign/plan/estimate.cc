@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/posterior_design.h"
 
 namespace talus::campaign {
@@ -90,12 +90,12 @@ double ProposalTime(double num_trials) {
 std::string BoughtText(const BudgetOptions& budget, const TrialEstimate& trial) {
   std::string text;
   if (budget.core_time) {
-    text += "; " + trials::DurationText(*budget.core_time) + " of core time buy " +
+    text += "; " + base::DurationText(*budget.core_time) + " of core time buy " +
             std::to_string(static_cast<std::int64_t>(*budget.core_time / trial.core_seconds));
   }
   if (budget.simulations > 0) {
     text += "; " + std::to_string(budget.simulations) + " simulations take " +
-            trials::DurationText(budget.simulations * trial.core_seconds) + " of core time";
+            base::DurationText(budget.simulations * trial.core_seconds) + " of core time";
   }
   return text;
 }
@@ -111,8 +111,8 @@ std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
             base::ShortNumber(1e3 * trial.mean_diameter) + " mm, " +
             base::ShortNumber(std::round(trial.num_steps)) + " steps, " +
             base::ShortNumber(std::round(1e-6 * trial.memory)) + " MB, " +
-            trials::DurationText(trial.core_seconds) + " of a core" +
-            BoughtText(spec.budget, trial) + "\n";
+            base::DurationText(trial.core_seconds) + " of a core" + BoughtText(spec.budget, trial) +
+            "\n";
   }
   return text;
 }
@@ -120,10 +120,10 @@ std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
 std::string TimeText(const CampaignEstimate& e) {
   const double trial_time = e.trials.front().core_seconds;
   const double confirm_time = e.confirming.empty() ? trial_time : e.confirming.front().core_seconds;
-  return "  time              about " + trials::DurationText(trial_time) + " a trial, " +
+  return "  time              about " + base::DurationText(trial_time) + " a trial, " +
          (confirm_time == trial_time ? ""
-                                     : trials::DurationText(confirm_time) + " a confirming one, ") +
-         trials::DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) +
+                                     : base::DurationText(confirm_time) + " a confirming one, ") +
+         base::DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) +
          " trials, " + std::to_string(e.num_workers) + " at a time\n";
 }
 
@@ -141,9 +141,9 @@ std::vector<std::string> TooLongTrials(const CampaignSpec& spec, const CampaignE
     if (takes <= spec.trial_time_cap) continue;
     texts.push_back(experiments[static_cast<std::size_t>(trial.experiment)].name +
                     " at scale factor " + base::ShortNumber(trial.scale_factor) +
-                    ": a trial takes about " + trials::DurationText(takes) +
+                    ": a trial takes about " + base::DurationText(takes) +
                     ", and fails at the trial_time_cap of " +
-                    trials::DurationText(spec.trial_time_cap) +
+                    base::DurationText(spec.trial_time_cap) +
                     ": raise it, or take coarser grains or more threads");
   }
   return texts;
@@ -165,7 +165,7 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
          base::Counted(static_cast<long long>(num_fine), "simulation") +
          " of each experiment at scale factor " + base::ShortNumber(finest) +
          ", and the answer rests on coarser grains: give it " +
-         trials::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out";
+         base::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out";
 }
 
 // Where the simulations end with those at coarser scale factors.
@@ -258,8 +258,8 @@ std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {
                             " million grain steps a second on a core\n";
   if (one) return "  a trial           " + RunText(e.trials.front()) + "\n" + speed + TimeText(e);
   return TrialLines(spec, e) + speed + "  time              at most " +
-         trials::DurationText(e.campaign_time) + " with the confirmation and " +
-         trials::DurationText(e.proposal_time) + " to choose trials, " +
+         base::DurationText(e.campaign_time) + " with the confirmation and " +
+         base::DurationText(e.proposal_time) + " to choose trials, " +
          std::to_string(e.num_workers) + " at a time\n";
 }
 

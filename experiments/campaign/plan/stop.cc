@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/trials/simulate/run_log.h"
+#include "base/text/duration_text.h"
 
 namespace talus::campaign {
 
@@ -14,9 +14,9 @@ std::string Stop::Text() const {
     case StopKind::kSimulations:
       return "the budget of " + std::to_string(std::llround(value)) + " simulations is used";
     case StopKind::kCoreTime:
-      return "the budget of " + trials::DurationText(value) + " core time is used";
+      return "the budget of " + base::DurationText(value) + " core time is used";
     case StopKind::kWallClock:
-      return "the time budget of " + trials::DurationText(value) + " is used";
+      return "the time budget of " + base::DurationText(value) + " is used";
     case StopKind::kAllFailed:
       return "the first " + std::to_string(std::llround(value)) + " trials" +
              (experiment.empty() ? "" : " of \"" + experiment + "\"") +

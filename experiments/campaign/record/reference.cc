@@ -139,7 +139,7 @@ imaging::GrayImage Reference::ImageOf(std::span<const float> field) const {
   std::size_t i = 0;
   ForEachPixel([&](int x, int y) {
     const float powder = std::clamp(field[i++], 0.0F, 1.0F);
-    image.at(x, y) = static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
+    image.at(x, y) = static_cast<std::uint8_t>(255 * (1 - powder) + 0.5F);  // rounded
   });
   return image;
 }
@@ -153,9 +153,9 @@ double Reference::ValueOfField(std::span<const float> field) const {
     constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
     return angle.defined() ? std::abs(angle.value - angle_) : kWorst;
   }
-  journal::TrialRecord trial;
-  trial.metrics = Measure(image);
-  return Value(trial).value();
+  return imaging::Rmse({.image = image, .frame = aehp_.profile.frame}, aehp_.profile.image,
+                       options_.metrics.rmse_region)
+      .value;
 }
 
 }  // namespace talus::campaign

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
@@ -83,26 +82,13 @@ void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
 
 namespace {
 
-// Of the powder, a wall or a pair: what the contact laws do not ask for changes nothing.
 void RequireEffect(const ParameterRanges& parameters, const engine::ContactModels& models,
                    base::Problems& problems) {
-  const bool adheres = models.adhesion != engine::Adhesion::kNone;
-  const std::map<std::string, std::pair<bool, const char*>> needs{
-      {"surface_energy", {adheres, "has no effect without adhesion; set models.adhesion"}},
-      {"hamaker_constant",
-       {models.adhesion == engine::Adhesion::kDmt,
-        "has no effect but with models.adhesion \"dmt\"; set that"}},
-      {"rolling_friction",
-       {models.rolling != engine::Rolling::kNone,
-        "has no effect without a rolling model; set models.rolling"}},
-      {"rolling_damping",
-       {models.rolling == engine::Rolling::kEpsd,
-        "has no effect but with models.rolling \"epsd\"; set that"}}};
   for (const optimizer::Parameter& parameter : MakeSpace(parameters).parameters) {
-    const auto need = needs.find(PlaceOf(parameter.name).property);
-    if (need == needs.end()) continue;
-    const auto& [is_met, why] = need->second;
-    problems.Require(is_met, "parameters." + parameter.name, std::string(why) + " or leave it out");
+    const auto missing = LawMissingFor(parameter.name, models);
+    if (!missing) continue;
+    problems.Add("parameters." + parameter.name,
+                 missing->why + "; " + missing->remedy + " or leave it out");
   }
 }
 
@@ -346,8 +332,8 @@ rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int ex
   return rig_case;
 }
 
-std::vector<std::string> ForbiddenChanges(const std::string& old_text,
-                                          const std::string& new_text) {
+std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
+                                               const std::string& new_text) {
   // Read and written again, as keys may have come with their defaults since it was written.
   ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
   ordered_json new_spec = ordered_json::parse(new_text);
@@ -356,15 +342,14 @@ std::vector<std::string> ForbiddenChanges(const std::string& old_text,
     // Templates may lie elsewhere where they are the same: their hash says so.
     if (spec->contains("engine")) spec->at("engine").erase("templates");
   }
-  std::vector<std::string> changes;
-  for (const base::JsonChange& change : base::JsonChanges(old_spec, new_spec)) {
-    if (change.path == "engine.templates_hash") {
-      changes.emplace_back("engine.templates: holds other files than it did then");
-      continue;
-    }
-    changes.push_back(change.path + ": " + change.before + " → " + change.after);
+  return base::JsonChanges(old_spec, new_spec);
+}
+
+std::string ChangeText(const base::JsonChange& change) {
+  if (change.path == "engine.templates_hash") {
+    return "engine.templates: holds other files than it did then";
   }
-  return changes;
+  return change.path + ": " + change.before + " → " + change.after;
 }
 
 }  // namespace talus::campaign

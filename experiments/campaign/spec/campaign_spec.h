@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json/json_changes.h"
 #include "base/json/json_file.h"
 #include "experiments/campaign/spec/campaign_options.h"
 #include "experiments/campaign/spec/experiment_spec.h"
@@ -175,8 +176,12 @@ rigs::Case TypicalCase(const CampaignSpec& spec, int experiment, double scale_fa
 rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int experiment,
                   double scale_factor);
 
-// What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
-// what a running campaign may change is left out.
-std::vector<std::string> ForbiddenChanges(const std::string& old_text, const std::string& new_text);
+// What differs between two specs (as SpecText writes them); what a running campaign may change is
+// left out.
+std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
+                                               const std::string& new_text);
+
+// "powder.mass: 0.001 → 0.002"
+std::string ChangeText(const base::JsonChange& change);
 
 }  // namespace talus::campaign

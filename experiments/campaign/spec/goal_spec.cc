@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/nearest.h"
+#include "experiments/campaign/spec/plausible_angle.h"
 
 namespace talus::campaign {
 namespace {
@@ -43,6 +44,9 @@ base::Dimension GoalSpec::DimensionOf(const std::string& observable) {
 
 void GoalSpec::Validate(base::Problems& problems) const {
   problems.Require(half_width > 0, "half_width", half_width, "must be positive");
+  if (DimensionOf(observable) == base::Dimension::kAngle) {
+    RequireAngleError(problems, "half_width", half_width);
+  }
   problems.Require(InfoOf(observable) != nullptr, "observable",
                    "is \"" + observable + "\", which no bulk test measures (docs/rigs.md)" +
                        DidYouMean(observable));

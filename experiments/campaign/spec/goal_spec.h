@@ -27,7 +27,7 @@ struct GoalSpec {
           {.dimension = DimensionOf(self.observable),
            .required = true,
            .doc = "the search ends when the parameters leave no more of it open than ± this, "
-                  "90 %; > 0, in the observable's unit"});
+                  "90 %; > 0, in SI or with a unit"});
   }
   void Validate(base::Problems& problems) const;
 

@@ -29,6 +29,21 @@ void RefuseRangesOfFixed(const json& root, base::Problems& problems) {
   }
 }
 
+// What is filled in when a campaign begins or a parameter is added to it.
+void RefuseOwnKeys(const json& root, base::Problems& problems) {
+  constexpr const char* kOurs = "is filled in by talus: leave it out";
+  const auto engine = root.find("engine");
+  if (engine != root.end() && engine->is_object()) {
+    problems.Require(!engine->contains("templates_hash"), "engine.templates_hash", kOurs);
+  }
+  const auto parameters = root.find("parameters");
+  if (parameters == root.end() || !parameters->is_object()) return;
+  for (const auto& [name, range] : parameters->items()) {
+    problems.Require(!range.is_object() || !range.contains("added_at"),
+                     "parameters." + name + ".added_at", kOurs);
+  }
+}
+
 // One that is no default is refused with the rest (GrainSizes::Validate).
 void RefuseScaleFactor(const json& root, const GrainSizes& sizes, base::Problems& problems) {
   const auto given = root.find("coarse_graining");
@@ -121,6 +136,7 @@ void RefuseIgnoredKeys(const base::JsonFile& file, const CampaignSpec& spec,
                        base::Problems& problems) {
   const json& root = file.root;
   RefuseRangesOfFixed(root, problems);
+  RefuseOwnKeys(root, problems);
   RefuseScaleFactor(root, spec.coarse_graining, problems);
   if (spec.experiment.has_value() == spec.experiments.has_value()) return;  // that is said already
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);

@@ -11,6 +11,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "base/sample.h"
+#include "experiments/campaign/spec/plausible_angle.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::campaign {
@@ -93,7 +94,10 @@ struct ExpectedError {
     visit("sd", self.standard_error,
           {.dimension = D, .required = true, .doc = "standard error it would have, > 0"});
   }
-  void Validate(base::Problems& problems) const { problems.RequirePositive("sd", standard_error); }
+  void Validate(base::Problems& problems) const {
+    problems.RequirePositive("sd", standard_error);
+    if constexpr (D == base::Dimension::kAngle) RequireAngleError(problems, "sd", standard_error);
+  }
 };
 
 // One of each observable (rigs/observables/observable.h), under its key.

@@ -46,19 +46,6 @@ struct BulkQuantity {
   std::optional<double> (*get)(const rigs::Case&);
 };
 
-struct LengthScaler {
-  double factor;
-  void operator()(std::string_view, std::optional<double>& field, FieldInfo info = {}) const {
-    if (field && info.dimension == base::Dimension::kLength) *field *= factor;
-  }
-  void operator()(std::string_view, std::vector<double>& field, FieldInfo info = {}) const {
-    if (info.dimension != base::Dimension::kLength) return;
-    for (double& one : field) one *= factor;
-  }
-  template <class Field>
-  void operator()(std::string_view, Field&, FieldInfo = {}) const {}
-};
-
 void SetFill(rigs::Case& c, double fill) {
   if (c.rig.kind != rigs::RigKind::kDrum) return;
   c.rig.drum.fill = fill;
@@ -71,9 +58,7 @@ constexpr BulkQuantity kBulk[] = {
      [](const rigs::Case& c) { return std::optional(c.powder.mass); }},
     {"fill", base::Dimension::kNone, SetFill, rigs::FillOf},
     {"particle_size", base::Dimension::kNone,
-     [](rigs::Case& c, double value) {
-       engine::SizeDistribution::Visit(c.powder.sizes, LengthScaler{value});
-     },
+     [](rigs::Case& c, double value) { c.powder.sizes = engine::Enlarged(c.powder.sizes, value); },
      [](const rigs::Case&) { return std::optional(1.0); }},
 };
 
@@ -193,6 +178,25 @@ std::optional<double> HeldAt(const optimizer::ParameterSpace& space, const rigs:
 }
 
 bool IsFactor(const std::string& parameter) { return parameter == "particle_size"; }
+
+std::optional<MissingLaw> LawMissingFor(const std::string& parameter,
+                                        const engine::ContactModels& models) {
+  using engine::Adhesion, engine::Rolling;
+  const std::string property = PlaceOf(parameter).property;
+  if (property == "surface_energy" && models.adhesion == Adhesion::kNone) {
+    return MissingLaw{"has no effect without adhesion", "set models.adhesion"};
+  }
+  if (property == "hamaker_constant" && models.adhesion != Adhesion::kDmt) {
+    return MissingLaw{"has no effect but with models.adhesion \"dmt\"", "set that"};
+  }
+  if (property == "rolling_friction" && models.rolling == Rolling::kNone) {
+    return MissingLaw{"has no effect without a rolling model", "set models.rolling"};
+  }
+  if (property == "rolling_damping" && models.rolling != Rolling::kEpsd) {
+    return MissingLaw{"has no effect but with models.rolling \"epsd\"", "set that"};
+  }
+  return std::nullopt;
+}
 
 bool CanBeMeasuredDirectly(const std::string& parameter) {
   const ParameterPlace place = PlaceOf(parameter);

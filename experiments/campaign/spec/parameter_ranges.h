@@ -2,12 +2,12 @@
 // known of them beforehand.
 #pragma once
 
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "base/problems.h"
 #include "engine/laws/material.h"
 #include "experiments/campaign/spec/parameter_prior.h"
@@ -18,8 +18,8 @@ namespace talus::campaign {
 
 template <base::Dimension kDimension>
 struct ParameterRange {
-  double min = std::numeric_limits<double>::quiet_NaN();
-  double max = std::numeric_limits<double>::quiet_NaN();
+  double min = base::kNotKnown;
+  double max = base::kNotKnown;
   optimizer::Scale scale = optimizer::Scale::kLinear;
   std::optional<double> guess{};
   std::optional<double> fixed{};
@@ -159,6 +159,14 @@ bool IsFactor(const std::string& parameter);
 
 // A tilted plate tells the friction between powder and a wall; nothing tells that of two grains.
 bool CanBeMeasuredDirectly(const std::string& parameter);
+
+// A law without which a parameter changes nothing, be it the powder's, a wall's or a pair's.
+struct MissingLaw {
+  std::string why;  // "has no effect without adhesion"
+  std::string remedy;
+};
+std::optional<MissingLaw> LawMissingFor(const std::string& parameter,
+                                        const engine::ContactModels& models);
 
 // Whether it is one of the bulk, which decides whether the powder fits into its vessel.
 bool IsOfBulk(const std::string& parameter);

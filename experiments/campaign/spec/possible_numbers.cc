@@ -8,17 +8,12 @@
 
 #include "base/text/number_text.h"
 #include "base/units.h"
+#include "experiments/campaign/spec/plausible_angle.h"
 
 namespace talus::campaign {
 namespace {
 
 constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
-constexpr double kLargestAngleError = 0.5;          // [rad]
-
-// Written with three decimals at most, as people write numbers.
-bool IsShort(double number) {
-  return std::abs(1e3 * number - std::round(1e3 * number)) < 1e-6 * (1 + std::abs(number));
-}
 
 // What is never 0, so that an error as large as the value says nothing: most often it has another
 // unit.
@@ -48,8 +43,9 @@ struct Checker {
     const std::string place = prefix + std::string(key) + ".";
     if (IsNeverZero(key)) RequireKnown(*number, place, base::SiUnit(D));
     if constexpr (D == base::Dimension::kAngle) {
-      ForEach(*number, place,
-              [&](const std::string& one, double value) { RequireAngle(one, value, kSteepest); });
+      ForEach(*number, place, [&](const std::string& one, double value) {
+        RequireAngle(problems, one, value, kSteepest);
+      });
       RequireErrorOfAngle(*number, place);
     } else if constexpr (D == base::Dimension::kNone) {
       const double most = rigs::BoundsOf(key).high;  // without a unit key and metric are the same
@@ -82,27 +78,12 @@ struct Checker {
                          ": has one of them another unit?");
   }
 
-  // What is short in degrees and not in radians was given in degrees.
-  void RequireAngle(const std::string& place, double value, double most) {
-    const double degrees = value / base::kDegree;
-    if (IsShort(degrees) && !IsShort(value)) {
-      problems.Require(value <= most, place,
-                       "is " + base::ShortNumber(degrees) + " deg, must be at most " +
-                           base::ShortNumber(most / base::kDegree, 4) + " deg");
-      return;
-    }
-    problems.Require(value <= most, place, value,
-                     "in rad, which is " + base::ShortNumber(degrees) +
-                         " degrees; a bare number is in rad: write \"" + base::ShortNumber(value) +
-                         " deg\" for degrees");
-  }
-
   // The scatter of values that are each possible tells of one in another unit.
   template <class Number>
   void RequireErrorOfAngle(const Number& number, const std::string& place) {
     const bool has_scatter = number.values && number.values->size() > 1;
     if (!has_scatter) {
-      return RequireAngle(place + "sd", number.StandardError(), kLargestAngleError);
+      return RequireAngleError(problems, place + "sd", number.StandardError());
     }
     const bool possible =
         std::ranges::all_of(*number.values, [](double value) { return value <= kSteepest; });

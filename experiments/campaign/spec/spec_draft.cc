@@ -14,6 +14,7 @@
 #include "base/text/number_text.h"
 #include "base/units.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/options/drum_options.h"
 
 namespace talus::campaign {
 namespace {
@@ -294,18 +295,33 @@ std::string Device(const SpecAnswers& answers) {
          "\n  },\n";
 }
 
+// What is filled into the test [kg]: a mass of its own, what its drum's fill makes, or the usual.
+double MassInto(const DraftTest& test, double density, double usual) {
+  using base::Dimension, base::ParseQuantity;
+  if (const std::string own = test.Answer("mass"); !own.empty()) {
+    return ParseQuantity(own, Dimension::kMass);
+  }
+  const std::string fill = test.Answer("fill");
+  if (fill.empty()) return usual;
+  rigs::DrumOptions drum;
+  const auto take = [&](const char* key, double& length) {
+    const std::string answer = test.Answer(key);
+    if (!answer.empty()) length = ParseQuantity(answer, Dimension::kLength);
+  };
+  take("diameter", drum.diameter);
+  take("width", drum.width);
+  drum.fill = ParseQuantity(fill, Dimension::kNone);
+  return drum.GrainVolume() * density;
+}
+
 // So coarse that the largest filling is of some ten thousand grains, which a core simulates in
 // seconds: numbers have no outline that single grains would show in.
 std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths) {
   constexpr double kGrains = 1e4;
-  double mass = base::ParseQuantity(answers.mass, base::Dimension::kMass);
-  for (const DraftTest& test : answers.tests) {
-    for (const auto& [key, answer] : test.answers) {
-      if (key == "mass" && !answer.empty())
-        mass = std::max(mass, base::ParseQuantity(answer, base::Dimension::kMass));
-    }
-  }
+  const double usual = base::ParseQuantity(answers.mass, base::Dimension::kMass);
   const double density = base::ParseQuantity(answers.density, base::Dimension::kDensity);
+  double mass = 0;
+  for (const DraftTest& test : answers.tests) mass = std::max(mass, MassInto(test, density, usual));
   const double one = density * base::SphereVolume(lengths.grain / 2);
   return base::ShortNumber(Rounded(std::cbrt(mass / one / kGrains)));
 }
@@ -331,11 +347,12 @@ std::string DraftSpec(const SpecAnswers& answers) {
         "there is nothing to calibrate on: give photographs of a heap, or what a test has "
         "measured with --test");
   }
+  const std::string experiments = Experiments(answers);  // first: it says where an answer is wrong
   return "// " + answers.name +
          ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
          "{\n  \"name\": " +
-         Quoted(answers.name) + ",\n" + Experiments(answers) + Powder(answers) + Device(answers) +
+         Quoted(answers.name) + ",\n" + experiments + Powder(answers) + Device(answers) +
          Models(answers.cohesive, cohesion) + CoarseGraining(answers, lengths) +
          Searched(answers, cohesion) +
          (answers.HasPhotographs() ? "  \"objective\": \"sad\",\n" : "") +

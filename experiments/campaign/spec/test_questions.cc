@@ -92,8 +92,9 @@ std::string UsualError(const rigs::ObservableInfo& info) {
   if (info.usual_error.relative > 0)
     return base::ShortNumber(100 * info.usual_error.relative) + " %";
   if (info.usual_error.absolute > 0) {
-    const std::string unit = info.dimension == base::Dimension::kAngle ? " deg" : "";
-    return base::ShortNumber(info.usual_error.absolute) + unit;
+    const bool is_angle = info.dimension == base::Dimension::kAngle;
+    const std::string unit(is_angle ? "deg" : base::SiUnit(info.dimension));
+    return base::WithUnit(info.usual_error.absolute, unit);
   }
   return "";
 }

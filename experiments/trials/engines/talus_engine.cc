@@ -98,11 +98,23 @@ std::filesystem::path TalusEngine::ThisProgram() {
 }
 
 void TalusEngine::Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  PrepareFolder(folder, rigs::kCaseFile, rigs::CaseText(rig_case));
+  const std::string text = rigs::CaseText(rig_case);
+  if (!IsPrepared(rig_case, folder)) {
+    PrepareFolder(folder, rigs::kCaseFile, text);
+  } else if (!HoldsKey(folder, rigs::kCaseFile, text)) {  // a checkpoint goes on with other threads
+    base::WriteFileAtomically(folder / rigs::kCaseFile, text, base::Outlives::kProgram);
+  }
 }
 
 bool TalusEngine::IsPrepared(const rigs::Case& rig_case, const std::filesystem::path& folder) {
-  return HoldsKey(folder, rigs::kCaseFile, rigs::CaseText(rig_case));
+  if (HoldsKey(folder, rigs::kCaseFile, rigs::CaseText(rig_case))) return true;
+  const std::filesystem::path former = folder / rigs::kCaseFile;
+  try {
+    return std::filesystem::exists(former) &&
+           rigs::RunText(rigs::LoadCase(former)) == rigs::RunText(rig_case);
+  } catch (const base::Error&) {
+    return false;  // torn by a power cut
+  }
 }
 
 std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {

@@ -66,18 +66,13 @@ std::vector<fs::path> FoldersIn(const fs::path& path) {
   return folders;
 }
 
-std::string NameOfFolder(const fs::path& path) {
-  const fs::path clean = fs::absolute(path).lexically_normal();
-  return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
-}
-
 // Whether a folder in that of a mass is a heap's: it has the photographs of one, and its name
 // speaks of no mass, day, weekday or date.
 bool IsHeapFolder(const fs::path& path) {
   static const std::regex kDay(
       "day|[0-9]{8}|[0-9]+[-_. ](?:[0-9]+|[a-z]{3,9})[-_. ][0-9]+|^(?:mon|tue|wed|thu|fri|sat|sun)",
       std::regex::icase);
-  const std::string name = NameOfFolder(path);
+  const std::string name = base::FolderName(path);
   if (MassInName(name) || std::regex_search(name, kDay) || !FoldersIn(path).empty()) return false;
   return !imaging::ImagesIn(path).empty() && imaging::FindPhotos(path, "").runs.size() == 1;
 }
@@ -94,7 +89,7 @@ bool HoldsPhotos(const fs::path& path, const std::vector<fs::path>& inner,
 // heap in it or without.
 void FindFolders(const fs::path& path, const std::string& pattern, MassFolder known,
                  std::vector<MassFolder>& found) {
-  const std::string name = NameOfFolder(path);
+  const std::string name = base::FolderName(path);
   const std::optional<NamedMass> named = MassInName(name);
   if (named) known.mass = named->mass;
   const std::string day = named ? named->rest : known.path.empty() ? "" : name;

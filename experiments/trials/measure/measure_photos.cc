@@ -158,6 +158,10 @@ std::string SeeText(const std::vector<std::pair<fs::path, fs::path>>& drawn, con
   return said;
 }
 
+bool IsAmong(const fs::path& picture, const std::vector<std::pair<fs::path, fs::path>>& drawn) {
+  return std::ranges::any_of(drawn, [&](const auto& one) { return one.second == picture; });
+}
+
 // Draws what was found in the photographs that cannot be used, under names that keep photographs of
 // several folders apart, and says where. One that is unreadable, black or blank has no picture.
 std::string DrawUnusable(const MeasureRequest& request,
@@ -167,7 +171,10 @@ std::string DrawUnusable(const MeasureRequest& request,
     if (!unusable.is_drawable) continue;  // the fault says why
     const std::string name = "fault_" + unusable.photo.parent_path().filename().string() + "_" +
                              unusable.photo.stem().string();
-    const fs::path path = OverlayPath(request.out, name);
+    fs::path path = OverlayPath(request.out, name);
+    for (int i = 2; IsAmong(path, drawn); ++i) {
+      path = OverlayPath(request.out, name + "_" + std::to_string(i));
+    }
     if (drawn.empty()) {
       base::ClaimOutputFolder(request.out, "measure", InputsOf(request));
       base::RemoveFormerFiles(path.parent_path(), "fault_");

@@ -74,7 +74,7 @@ class OptimizeLoop {
     if (folder_->num_recorded() > 0 && !output_.quiet) {
       const bool is_done = complete == problem_.evaluations;
       std::cerr << output_.folder.string() << (is_done ? ": has all its " : ": goes on after ")
-                << folder_->num_recorded() << " evaluations"
+                << (is_done ? complete : folder_->num_recorded()) << " evaluations"
                 << (is_done ? "; raise `evaluations` for more" : "") << std::endl;
     }
   }

@@ -147,11 +147,16 @@ void OptimizeFolder::Load() {
     }
     recorded_.insert_or_assign(number, std::move(evaluated));
   }
+  std::size_t kept = complete;
   const bool any = std::ranges::any_of(
       recorded_, [](const auto& known) { return !known.second.observation.failed; });
-  // The command was wrong, and has been mended since; what failed says nothing of the parameters.
-  if (!any && recorded_.size() >= static_cast<std::size_t>(kHopeless)) recorded_.clear();
-  if (complete < text.size()) std::filesystem::resize_file(path, complete);
+  // The command was wrong, and has been mended since; what failed says nothing of the parameters,
+  // now or when the mended one has succeeded.
+  if (!any && recorded_.size() >= static_cast<std::size_t>(kHopeless)) {
+    recorded_.clear();
+    kept = 0;
+  }
+  if (kept < text.size()) std::filesystem::resize_file(path, kept);
 }
 
 void OptimizeFolder::CheckImage(int number, const std::string& checksum, int line_number) const {

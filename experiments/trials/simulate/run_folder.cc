@@ -1,7 +1,5 @@
 #include "experiments/trials/simulate/run_folder.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/cpu_time.h"
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
@@ -17,6 +16,7 @@
 #include "base/interrupt.h"
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
+#include "base/text/duration_text.h"
 #include "base/version.h"
 #include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/simulate/run_lock.h"
@@ -29,15 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.bin";
 
-double CpuTime() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 class Stopwatch {
  public:
   explicit Stopwatch(const engine::RunTiming& earlier) : earlier_(earlier) {}
@@ -45,7 +36,7 @@ class Stopwatch {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   engine::RunTiming Total() const {
-    return {earlier_.wall_time + Elapsed(), earlier_.cpu_time + CpuTime()};
+    return {earlier_.wall_time + Elapsed(), earlier_.cpu_time + base::CpuTime()};
   }
 
  private:
@@ -219,7 +210,8 @@ void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Sto
 std::string Summary(const engine::RunProgress& end, const engine::RunTiming& timing) {
   char text[160];
   std::snprintf(text, sizeof text, "done: %lld steps, %.4f s simulated, %s, %.1f Mps/s",
-                static_cast<long long>(end.step), end.time, DurationText(timing.wall_time).c_str(),
+                static_cast<long long>(end.step), end.time,
+                base::DurationText(timing.wall_time).c_str(),
                 end.particle_steps / timing.wall_time / 1e6);
   return text;
 }

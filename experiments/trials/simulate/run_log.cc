@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "base/text/printable.h"
 #include "experiments/rigs/case/run_files.h"
@@ -29,14 +30,6 @@ double Seconds(std::chrono::steady_clock::duration d) {
 }
 
 }  // namespace
-
-std::string DurationText(double seconds) {
-  if (seconds > 0 && seconds < 1) return base::ShortNumber(seconds, 1) + " s";
-  const auto s = static_cast<long long>(std::max(0.0, seconds) + 0.5);
-  if (s < 100) return std::to_string(s) + " s";
-  if (s < 6000) return std::to_string((s + 30) / 60) + " min";
-  return std::to_string(s / 3600) + " h " + std::to_string(s % 3600 / 60) + " min";
-}
 
 RunLog::RunLog(const std::filesystem::path& folder, bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDOUT_FILENO) == 1) {
@@ -73,7 +66,7 @@ void RunLog::Progress(const engine::RunProgress& p) {
   std::string left;
   if (p.end_time > p.time && p.time > start_time_) {
     const double pace = Seconds(now - start_) / (p.time - start_time_);
-    left = ", about " + DurationText(pace * (p.end_time - p.time)) + " left";
+    left = ", about " + base::DurationText(pace * (p.end_time - p.time)) + " left";
   }
   char text[200];
   std::snprintf(text, sizeof text, "%s: %.4f s simulated, %lld particles, %.1f Mps/s%s",

@@ -38,7 +38,4 @@ class RunLog {
   double shown_steps_ = 0;  // particle steps at the last look
 };
 
-// "45 s", "12 min", "3 h 20 min"
-std::string DurationText(double seconds);
-
 }  // namespace talus::trials

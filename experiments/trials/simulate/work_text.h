@@ -4,13 +4,13 @@
 #include <string>
 
 #include "base/text/counted.h"
-#include "experiments/trials/simulate/run_log.h"
+#include "base/text/duration_text.h"
 
 namespace talus::trials {
 
 // `noun` in the singular; `core_time` of all together [s].
 inline std::string WorkText(int count, const std::string& noun, double core_time) {
-  return base::Counted(count, noun) + ", about " + DurationText(core_time) + " of core time";
+  return base::Counted(count, noun) + ", about " + base::DurationText(core_time) + " of core time";
 }
 
 }  // namespace talus::trials

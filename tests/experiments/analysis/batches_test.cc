@@ -312,7 +312,44 @@ TEST_F(BatchesTest, ConditionsAreThoseOfExperimentsOfOneName) {
       Run("slow", 0.4, "23 mg", R"(, "device": {"lift_velocity": "2 cm/s"})"));
   EXPECT_EQ(OtherConditions(first, slow).size(), 1u);
   slow.record.experiments.front().name = "slow heap";
-  EXPECT_TRUE(OtherConditions(first, slow).empty());
+  const std::vector<std::string> texts = OtherConditions(first, slow);
+  ASSERT_EQ(texts.size(), 1u);  // the lift is no other condition of a test that both have
+  EXPECT_THAT(texts.front(), HasSubstr("only there, and \"slow heap\" only here"));
+}
+
+// The first batch's fixed values were given to the other, too.
+TEST_F(BatchesTest, FixedParametersThatDifferAreConditions) {
+  const campaign::JointView first = campaign::ReadJointView(Run("first", 0.4));
+  const auto with_fixed = [&](std::optional<double> restitution) {
+    campaign::JointView view = first;
+    if (restitution) {
+      view.spec.parameters->restitution.emplace();
+      view.spec.parameters->restitution->fixed = restitution;
+    }
+    view.space = campaign::SpaceOf(view.spec);
+    return view;
+  };
+  const double own = first.spec.powder.material.restitution;
+  EXPECT_TRUE(OtherConditions(first, with_fixed(own)).empty());
+  EXPECT_TRUE(OtherConditions(with_fixed(0.5), with_fixed(0.5)).empty());
+  EXPECT_THAT(OtherConditions(with_fixed(own), with_fixed(0.5)).front(), HasSubstr("restitution"));
+  EXPECT_THAT(OtherConditions(first, with_fixed(0.5)).front(), HasSubstr("restitution"));
+  // One that only one of the two searches is no condition.
+  campaign::JointView searched = first;
+  searched.spec.parameters->restitution.emplace();
+  searched.spec.parameters->restitution->min = 0.3;
+  searched.spec.parameters->restitution->max = 0.7;
+  searched.space = campaign::SpaceOf(searched.spec);
+  EXPECT_TRUE(OtherConditions(first, searched).empty());
+  EXPECT_TRUE(OtherConditions(searched, first).empty());
+}
+
+// "Holds for scale factor 1" and "for 2" were compared without a word.
+TEST_F(BatchesTest, AnswersForOtherGrainSizesAreConditions) {
+  const campaign::JointView first = campaign::ReadJointView(Run("first", 0.4));
+  campaign::JointView finer = first;
+  finer.spec.coarse_graining.target = first.spec.coarse_graining.Target() / 2;
+  EXPECT_THAT(OtherConditions(first, finer).front(), HasSubstr("that it answers for is"));
 }
 
 TEST_F(BatchesTest, OneCampaignIsRefusedAndAnUnfinishedOneIsSaid) {

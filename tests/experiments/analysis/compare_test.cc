@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/not_known.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/campaign/record/reference.h"
 #include "tests/experiments/synthetic_campaign.h"
@@ -24,7 +25,7 @@ struct Sample {
 
 // One parameter from 0 to 1 and one metric.
 Evidence OneParameter(const std::string& metric, const std::vector<Sample>& samples,
-                      double reference = kUndefined) {
+                      double reference = base::kNotKnown) {
   Evidence evidence;
   evidence.parameters.resize(1);
   evidence.parameters[0].range.low = 0;
@@ -159,10 +160,10 @@ TEST(CompareObjectives, ModelsMinimumIsOneThatTheConstraintsAllow) {
 
 TEST(CompareObjectives, SaysWhyAnObjectiveHasNoAnswer) {
   const Evidence evidence =
-      OneParameter("repose_angle_1_mean_deg", {{0.1, 20}, {0.2, 21}}, kUndefined);
+      OneParameter("repose_angle_1_mean_deg", {{0.1, 20}, {0.2, 21}}, base::kNotKnown);
   EXPECT_THAT(Find(evidence, "aor1").absent, HasSubstr("experiment"));
   EXPECT_THAT(Find(evidence, "sad").absent, HasSubstr("not measured"));
-  EXPECT_THAT(Find(OneParameter("sad_mm2", {{0.1, kUndefined}}), "sad").absent,
+  EXPECT_THAT(Find(OneParameter("sad_mm2", {{0.1, base::kNotKnown}}), "sad").absent,
               HasSubstr("no trial"));
 }
 

@@ -127,6 +127,10 @@ TEST_F(NextCandidates, CandidatesComeFromAFile) {
   EXPECT_EQ(tests[0].device.value().lift_velocity, 0.2);
   std::ofstream(file) << R"({"candidates": [{"runs": 0}]})";
   EXPECT_THROW(LoadTests(file), base::ConfigError);
+  // An error of a radian: a good test told nothing.
+  std::ofstream(file) << R"({"candidates": [{"name": "drum", "rig": {"kind": "drum"},
+                                             "angle": {"sd": 1}}]})";
+  EXPECT_THROW(LoadTests(file), base::ConfigError);
   // Their simulations stand in folders of these names: one would be lost.
   for (const char* other : {"fast lift", "fast-lift"}) {
     std::ofstream(file) << R"({"candidates": [{"name": "fast lift"}, {"name": ")" << other

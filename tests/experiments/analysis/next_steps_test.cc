@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/data/report_data.h"
@@ -51,7 +52,7 @@ TEST(NextSteps, ADifferentTestComesFirstWhereNoneHasBeenJudged) {
                            .picture = {}};
   CandidateView wide = runs;
   wide.kind = "test";
-  wide.bits = kUndefined;
+  wide.bits = base::kNotKnown;
   const NextTableView table{.width = {0.5, 0.4}, .candidates = {runs, wide}};
   const std::vector<NextStep> steps =
       NextSteps(test::MakeSyntheticCampaign({.num_parameters = 2}), table);

@@ -10,6 +10,7 @@
 
 #include "base/files/checked_text.h"
 #include "base/json/json_writer.h"
+#include "base/not_known.h"
 #include "base/random.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/analysis/predict/number_surrogate.h"
@@ -60,7 +61,7 @@ TEST(Spread, RoundingIsNoScatter) {
 // A run whose number is not defined is null in prediction.json; the next command reads it back.
 TEST(PredictedNumber, WithARunThatHasNoneIsReadAsItWasWritten) {
   PredictedNumber number{.name = "angle_deg"};
-  number.by_run = {41.5, kUnknown, 43};
+  number.by_run = {41.5, base::kNotKnown, 43};
   const std::string text = base::ToJson(number).dump();
   EXPECT_THAT(text, HasSubstr("[41.5,null,43.0]"));
   const auto read = journal::ParseRecord<PredictedNumber>(text, "prediction.json");

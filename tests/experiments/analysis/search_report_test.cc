@@ -91,6 +91,21 @@ TEST_F(SearchReport, ShowsASearchThatHasNotEnded) {
   EXPECT_THAT(page, HasSubstr("<svg"));
 }
 
+// "The search has not ended" was said of a command that had failed eight times.
+TEST(SearchPage, OfACommandThatNeverSucceededSaysWhy) {
+  SearchFolder search{.name = "x", .most_evaluations = 24};
+  search.parameters = {{.name = "a", .low = 0, .high = 1}};
+  for (int i = 1; i <= 8; ++i) {
+    search.evaluations.push_back({.number = i, .values = {0.5}, .failure = "exit status 3: oops"});
+  }
+  EXPECT_THAT(SearchPage(search), HasSubstr("All have failed, the last: exit status 3: oops."));
+  EXPECT_THAT(SearchPage(search), HasSubstr("mend the command"));
+  // Values that differ in the seventh digit are shown with it.
+  search.evaluations.push_back({.number = 9, .values = {0.5}, .value = 1234567});
+  search.evaluations.push_back({.number = 10, .values = {0.6}, .value = 1234568});
+  EXPECT_THAT(SearchPage(search), HasSubstr("1234568"));
+}
+
 TEST_F(SearchReport, ShowsTheAnswerWithItsRangesAndWarnings) {
   Write("result.json", base::WithChecksum(std::string(kResult) + "\n"));
   const std::string page = SearchPage(Read());

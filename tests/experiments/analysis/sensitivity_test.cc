@@ -201,6 +201,11 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   std::ranges::find(of_both, "filling", &analysis::Move::name)->apply(moved);
   EXPECT_NE(moved.filling.kind, typical.filling.kind);
   EXPECT_EQ(MoveTo(view, typical, "mass", "0.6 g").from, "0.0005 kg");
+  // A test of another mass is moved by the same ratio: it was given the first test's.
+  rigs::Case heavier = typical;
+  heavier.powder.mass = 1e-3;
+  MoveTo(view, typical, "mass", "0.6 g").apply(heavier);
+  EXPECT_NEAR(heavier.powder.mass, 1.2e-3, 1e-15);
   EXPECT_EQ(MoveTo(view, typical, "particle_size", "1.1").from, "1");
   // One that is fixed at 1.2 has made the case's grains larger by that already.
   JointView larger = view;
@@ -217,6 +222,7 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   EXPECT_THAT(ErrorOf(view, "restitutoin", "0.5"), HasSubstr("did you mean \"restitution\"?"));
   EXPECT_THAT(ErrorOf(view, "wobble", "0.5"), HasSubstr("is no parameter; there are "));
   EXPECT_THAT(ErrorOf(view, "fill", "0.3"), HasSubstr("is moved as the mass"));
+  EXPECT_THAT(ErrorOf(view, "hamaker_constant", "1e-19 J"), HasSubstr("has no effect but with"));
 }
 
 TEST_F(SensitivityTest, AnAnswerIsFollowedAsFarAsItsCoreTimeGoes) {

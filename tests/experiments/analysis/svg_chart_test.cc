@@ -46,6 +46,21 @@ TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
   EXPECT_THAT(chart, Not(HasSubstr("e-0")));
 }
 
+// Four digits of 1 234 567 and 1 234 577 are the same, and a wide label began outside of the image.
+TEST(SvgChart, TicksOfALargeValueThatChangesLittleAreToldApartAndSeen) {
+  const std::string chart =
+      SvgChart({.title = "x"}, {.title = "value", .low = 1234560, .high = 1234600}).Text();
+  EXPECT_THAT(chart, HasSubstr(">1.23457 × 10⁶<"));
+  EXPECT_THAT(chart, HasSubstr(">1.23458 × 10⁶<"));
+  const auto width = [](const std::string& text) {
+    return std::stod(text.substr(text.find("width=\"") + 7));
+  };
+  const std::string narrow = SvgChart({.title = "x"}, {.title = "y", .low = 0, .high = 1}).Text();
+  EXPECT_DOUBLE_EQ(width(narrow), 640);
+  // A label has 14 characters of some 8 px, and the title stands beside it.
+  EXPECT_GT(width(chart), 640 - 72 + 14 * 8 + 20);
+}
+
 // Only powers of ten were ticks: an axis of less than a decade had one or none.
 TEST(SvgChart, AShortLogarithmicAxisHasTicks) {
   const std::string chart = SvgChart({.title = "x", .low = 0.2, .high = 0.9, .log = true},

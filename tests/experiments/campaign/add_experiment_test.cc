@@ -284,6 +284,12 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedTakesNoEditedSpecOver) {
     Add(folder, Write(R"({"name": "tapped", "rig": {"kind": "tapped_density"},
                           "tapped_density": {"value": 9000, "sd": 10}})"));
   });
+  // Found when the test is measured, later than by its keys.
+  EXPECT_THAT(ErrorIn([&] {
+                Add(folder, Write(R"({"name": "gone", "map": "gone.png",
+                                      "plate_diameter": "10 mm"})"));
+              }),
+              HasSubstr("gone.png"));
   EXPECT_THAT(error, HasSubstr("tapped_density: is 9000"));
   EXPECT_THAT(error, Not(HasSubstr("experiments[1]")));
   const auto progress = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress();

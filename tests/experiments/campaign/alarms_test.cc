@@ -53,6 +53,19 @@ TEST(Alarms, ConfirmedWorseThanPredictedIsSaid) {
               HasSubstr("misses \"heap\" by 8, 4 more than the model predicted"));
 }
 
+// Of an angle the mean profile's mm² and the noise floor say nothing.
+TEST(Alarms, AnAngleIsNotHeldAgainstAnArea) {
+  Answer answer = ConfirmedAt(7.99);
+  answer.objective = "aor2_difference_deg";
+  answer.confirmed[0].experiments[0].num_trials = 3;
+  answer.confirmed[0].experiments[0].profile_sad_mm2 = 0.6;
+  answer.experiments[0].noise_floor = 100;
+  const auto alarms = PredictionAlarms(answer);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_NEAR(*alarms[0].shown, 7.99, 1e-9);
+  EXPECT_FALSE(alarms[0].noise_floor.has_value());
+}
+
 // Runs of the experiment differ by 3: what is 0.6 above the prediction is lost in that.
 TEST(Alarms, AnExcessFarBelowTheNoiseFloorIsNoAlarm) {
   Answer answer = ConfirmedAt(4.6);
@@ -189,8 +202,8 @@ TEST(Alarms, EveryKindHasWordsOfItsOwn) {
     ++of_results;
     texts.insert(AlarmText({.kind = kind}));
   }
-  EXPECT_EQ(of_results, 17);
-  EXPECT_THAT(texts, SizeIs(17));
+  EXPECT_EQ(of_results, 18);
+  EXPECT_THAT(texts, SizeIs(18));
   EXPECT_FALSE(texts.contains(""));
 }
 
@@ -199,6 +212,21 @@ TEST(Alarms, CommandsNameTheFolderWhereTheyAreShown) {
             "try `talus resume runs/a --add-simulations 20` or `talus next runs/a`");
   EXPECT_EQ(WithFolder("talus card DIR", "my runs/it's $a"), "talus card 'my runs/it'\\''s $a'");
   EXPECT_EQ(WithFolder("in DIR, talus report DIRECTORY", "a"), "in DIR, talus report DIRECTORY");
+}
+
+// Summary, verdict and result.json said nothing of a goal that the budget had ended.
+TEST(Alarms, AGoalThatIsMissedIsSaid) {
+  CampaignSpec spec;
+  EXPECT_THAT(GoalAlarms(spec, {}), IsEmpty());
+  spec.goal = {.file = "/x/spread.json", .observable = "packing_fraction", .half_width = 0.01};
+  GoalState state{.after = 24, .half_width = 0.03};
+  const auto missed = GoalAlarms(spec, state);
+  ASSERT_THAT(missed, SizeIs(1));
+  EXPECT_EQ(missed[0].kind, AlarmKind::kGoalMissed);
+  EXPECT_THAT(AlarmText(missed[0]), HasSubstr("known to ± 0.03 (90 %) after 24 trials"));
+  EXPECT_THAT(AlarmText(GoalAlarms(spec, {}).at(0)), HasSubstr("was never looked at"));
+  state.reason.emplace();
+  EXPECT_THAT(GoalAlarms(spec, state), IsEmpty());
 }
 
 TEST(Alarms, ABudgetThatEndedTheSearchSaysHowToGoOn) {
@@ -301,6 +329,9 @@ TEST(Headline, WhatFewSimulationsLeaveOpenIsNoFit) {
   answer.posterior->experiments = {{.name = "funnel heap"}};
   EXPECT_THAT(HeadlineText(answer),
               HasSubstr("should confirm one do not tell for AOR 1 of \"funnel heap\"."));
+  Answer held_out = answer;
+  held_out.posterior->experiments = {{.name = "heap"}};
+  EXPECT_THAT(HeadlineText(held_out), HasSubstr("Sets are found that fit every measurement."));
   answer.confirmed[0].experiments[0].scalars[0].mean = 29;
   EXPECT_THAT(HeadlineText(answer), HasSubstr("Sets are found that fit every measurement."));
 }

@@ -57,6 +57,16 @@ TEST(BudgetUse, CoreTimeIsLeftAtThePaceSoFar) {
   EXPECT_EQ(UseText(spec.budget, use, 100), "22 simulations, 3 min of 8 min core time");
 }
 
+// Taken over from another campaign, or found after a kill: nobody knows how long they took.
+TEST(BudgetUse, TrialsOfUnknownDurationAreNoPace) {
+  std::vector<journal::TrialRecord> trials = Trials(0, 32, journal::TrialKind::kReused);
+  for (journal::TrialRecord& trial : trials) trial.status = journal::TrialStatus::kOk;
+  const std::vector<journal::TrialRecord> own = Trials(20, 2);
+  const auto alone = UseOf(SpecOf({.simulations = 60}), own, 100, 2);
+  trials.insert(trials.end(), own.begin(), own.end());
+  EXPECT_EQ(UseOf(SpecOf({.simulations = 60}), trials, 100, 2).seconds_left, alone.seconds_left);
+}
+
 // The trials under way at the budget's end go beyond it; what is said never does.
 TEST(BudgetUse, NoMoreThanTheBudgetIsUsed) {
   const CampaignSpec spec = SpecOf({.simulations = 0, .core_time = 25});

@@ -66,6 +66,7 @@ TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
 // The ranks that srun starts are no children of the job's script: it sees srun's own time only.
 TEST(Cores, RanksThatSlurmStartsCountAsLongAsTheyHadTheirCores) {
   journal::TrialRecord trial;
+  trial.status = journal::TrialStatus::kOk;
   trial.duration_s = 100;
   trial.cpu_s = 2;
   CampaignSpec spec = WithRanks(0, 64, 1);
@@ -75,6 +76,19 @@ TEST(Cores, RanksThatSlurmStartsCountAsLongAsTheyHadTheirCores) {
   EXPECT_EQ(CoreTime(spec).OfSearch({trial, trial}), 12800);
   spec.engine.kind = EngineKind::kTalus;
   EXPECT_EQ(MeasuredCoreTime(trial, spec), 2);
+}
+
+// Stopped after a second and started again, it was taken for one of a second.
+TEST(Cores, ATrialThatRunsCountsAsLongAsOthersTook) {
+  CampaignSpec spec = WithRanks(0, 1, 1);
+  journal::TrialRecord ended;
+  ended.status = journal::TrialStatus::kOk;
+  ended.cpu_s = 60;
+  journal::TrialRecord runs;
+  runs.cpu_s = 1;
+  EXPECT_EQ(CoreTime(spec).OfSearch({ended, runs}), 120);
+  runs.cpu_s = 70;  // longer than usual already
+  EXPECT_EQ(CoreTime(spec).OfSearch({ended, runs}), 130);
 }
 
 }  // namespace cores_test

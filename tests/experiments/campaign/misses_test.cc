@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/not_known.h"
 #include "experiments/campaign/answer/alarms.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/headline.h"
@@ -32,7 +33,7 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   // A few simulations that scatter do not tell: 3.5 of √(0.7² + 2.4²) is 1.4.
   HeapOf(answer).scalars[0].standard_error = 2.4;
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
-  HeapOf(answer).scalars[0].standard_error = kNotKnown;
+  HeapOf(answer).scalars[0].standard_error = base::kNotKnown;
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
   HeapOf(answer).scalars[0].standard_error = 0;
   // The error of two values may be a fifth of what it seems: 5 of them are no more than chance.

@@ -87,6 +87,30 @@ TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   fs::remove_all(root);
 }
 
+// What has been simulated on one core need not be simulated again on two.
+TEST(TalusEngine, ThreadsMakeNoOtherRun) {
+  const fs::path root = fs::temp_directory_path() / ("talus_threads_" + std::to_string(::getpid()));
+  rigs::Case c = SmallHeap({.width = 60,
+                            .height = 40,
+                            .pixel_size = 3e-4,
+                            .center_x = 30,
+                            .baseline = 36,
+                            .plate_diameter = 0.01});
+  TalusEngine engine("talus");
+  engine.Prepare(c, root);
+  base::WriteFileAtomically(root / "checkpoint.bin", "half of it");
+  c.threads = 2;
+  EXPECT_TRUE(engine.IsPrepared(c, root));
+  engine.Prepare(c, root);
+  EXPECT_TRUE(fs::exists(root / "checkpoint.bin"));
+  EXPECT_EQ(base::ReadFile(root / "case.json"), rigs::CaseText(c));
+  c.seed += 1;
+  EXPECT_FALSE(engine.IsPrepared(c, root));
+  engine.Prepare(c, root);
+  EXPECT_FALSE(fs::exists(root / "checkpoint.bin"));
+  fs::remove_all(root);
+}
+
 // The grains that are simulated are the same; those that they stand for are eight times as many.
 TEST(TalusEngine, ARunOfOtherTrueGrainsIsTakenOverWithTheirNumber) {
   const fs::path root = fs::temp_directory_path() / ("talus_scaled_" + std::to_string(::getpid()));

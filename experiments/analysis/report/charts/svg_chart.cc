@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/text/markup.h"
+#include "base/text/num_characters.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/report/views/answer_words.h"
 
@@ -15,11 +16,10 @@ namespace talus::analysis {
 namespace {
 
 // [px]
-constexpr double kWidth = 640;
-constexpr double kLeft = 72;
+constexpr double kLeastLeft = 72;
 constexpr double kRight = 18;
 constexpr double kBottom = 56;
-constexpr double kPlotWidth = kWidth - kLeft - kRight;
+constexpr double kPlotWidth = 550;
 constexpr double kPlotHeight = 340;
 constexpr double kLegendLine = 20;
 
@@ -44,13 +44,14 @@ std::string Words(double x, double y, const std::string& anchor, const std::stri
 }
 
 // "0.2", "10⁻⁶", as the page's own charts (format.js).
-std::string TickText(double tick) {
+std::string TickText(double tick, int digits) {
   const double power = std::log10(std::abs(tick));
   const bool is_far = power < -3 - 1e-9 || power > 4 + 1e-9;
   char scientific[32];
   std::snprintf(scientific, sizeof scientific, "%.0e", tick);
   const bool is_power = std::abs(power - std::round(power)) < 1e-9;
-  const std::string text = WithPowers(is_far && is_power ? scientific : base::ShortNumber(tick, 4));
+  const std::string text =
+      WithPowers(is_far && is_power ? scientific : base::ShortNumber(tick, digits));
   return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
@@ -115,6 +116,35 @@ std::string StarPath(double x, double y, double radius) {
             Pixel(y + r * std::sin(angle));
   }
   return "<path d=\"" + path + "Z\" fill=\"" + kStar + "\" stroke=\"#fff\"/>\n";
+}
+
+struct Tick {
+  double at = 0;
+  std::string text{};
+};
+
+// Ticks with as many digits as tell them apart.
+std::vector<Tick> LabelledTicks(const SvgAxis& axis) {
+  constexpr int kFewest = 4;
+  constexpr int kMost = 12;
+  std::vector<Tick> ticks;
+  for (int digits = kFewest; digits <= kMost; ++digits) {
+    ticks.clear();
+    for (const double tick : TicksOf(axis)) ticks.push_back({tick, TickText(tick, digits)});
+    if (std::ranges::adjacent_find(ticks, {}, &Tick::text) == ticks.end()) break;
+  }
+  return ticks;
+}
+
+// Room for the ticks of the upright axis and its title beside them [px].
+double LeftOf(const SvgAxis& axis) {
+  constexpr double kCharacter = 8;
+  constexpr double kTitle = 34;
+  double widest = 0;
+  for (const Tick& tick : LabelledTicks(axis)) {
+    widest = std::max(widest, kCharacter * static_cast<double>(base::NumCharacters(tick.text)));
+  }
+  return std::max(kLeastLeft, kTitle + widest);
 }
 
 }  // namespace
@@ -188,27 +218,26 @@ std::string SvgChart::AxesText() const {
   const std::string stroke = std::string(" stroke=\"") + kInk + "\"";
   std::string text = "<path d=\"M0 0V" + Pixel(plot_height_) + "H" + Pixel(kPlotWidth) +
                      "\" fill=\"none\"" + stroke + "/>\n";
-  for (const double tick : TicksOf(x_)) {
+  for (const auto& [tick, label] : LabelledTicks(x_)) {
     const double x = PixelX(tick);
     text += "<path d=\"M" + Pixel(x) + " " + Pixel(plot_height_) + "v5\"" + stroke + "/>\n" +
-            Words(x, plot_height_ + 20, "middle", TickText(tick));
+            Words(x, plot_height_ + 20, "middle", label);
   }
-  for (const double tick : TicksOf(y_)) {
+  for (const auto& [tick, label] : LabelledTicks(y_)) {
     const double y = PixelY(tick);
-    text += "<path d=\"M0 " + Pixel(y) + "h-5\"" + stroke + "/>\n" +
-            Words(-9, y + 5, "end", TickText(tick));
+    text += "<path d=\"M0 " + Pixel(y) + "h-5\"" + stroke + "/>\n" + Words(-9, y + 5, "end", label);
   }
   text += Words(kPlotWidth / 2, plot_height_ + 44, "middle", x_.title);
-  return text + "<g transform=\"translate(-56 " + Pixel(plot_height_ / 2) + ") rotate(-90)\">" +
-         Words(0, 0, "middle", y_.title) + "</g>\n";
+  return text + "<g transform=\"translate(" + Pixel(16 - LeftOf(y_)) + " " +
+         Pixel(plot_height_ / 2) + ") rotate(-90)\">" + Words(0, 0, "middle", y_.title) + "</g>\n";
 }
 
 std::string SvgChart::LegendText() const {
   std::string text;
   double y = 14;
   for (const Entry& entry : legend_) {
-    text += "<g transform=\"translate(" + Pixel(kLeft + 12) + " " + Pixel(y) + ")\">" + entry.mark +
-            "</g>\n" + Words(kLeft + 28, y + 5, "start", entry.name);
+    text += "<g transform=\"translate(" + Pixel(LeftOf(y_) + 12) + " " + Pixel(y) + ")\">" +
+            entry.mark + "</g>\n" + Words(LeftOf(y_) + 28, y + 5, "start", entry.name);
     y += kLegendLine;
   }
   return text;
@@ -217,13 +246,14 @@ std::string SvgChart::LegendText() const {
 std::string SvgChart::Text() const {
   const double top = 14 + kLegendLine * static_cast<double>(legend_.size());
   const std::string height = Pixel(top + plot_height_ + kBottom);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Pixel(kWidth) + "\" height=\"" +
-         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" role=\"img\" " + kFont +
-         " fill=\"" + kInk + "\">\n<title>" + base::MarkupText(y_.title + " over " + x_.title) +
+  const std::string width = Pixel(LeftOf(y_) + kPlotWidth + kRight);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
+         "\" viewBox=\"0 0 " + width + " " + height + "\" role=\"img\" " + kFont + " fill=\"" +
+         kInk + "\">\n<title>" + base::MarkupText(y_.title + " over " + x_.title) +
          "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + LegendText() +
          "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) + "\" height=\"" +
-         Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(kLeft) + " " +
-         Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +
+         Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(LeftOf(y_)) +
+         " " + Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +
          "</g>\n</svg>\n";
 }
 

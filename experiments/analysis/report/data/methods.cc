@@ -8,6 +8,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/labels.h"
+#include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
 namespace {
@@ -16,8 +17,8 @@ std::string Searched(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const ParameterInfo& p : evidence.parameters) {
     words.push_back(
-        LongNameOf(p.range.name) + " in [" + base::ShortNumber(p.range.low) + ", " +
-        base::WithUnit(p.range.high, p.unit, 3) + "]" +
+        LongNameOf(p.range.name) + " from " + base::ShortNumber(p.range.low) + " to " +
+        base::WithUnit(p.range.high, p.unit, 3) +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }
   return base::Listed(words);
@@ -42,13 +43,18 @@ std::string Answered(const Evidence& evidence) {
     const campaign::ResultParameter& v = evidence.answer->parameters[k];
     std::string word = p.symbol + " = " + base::WithUnit(v.value, p.unit, 3);
     if (std::isfinite(v.credible_low)) {
-      word += " (90 % credible range " + base::ShortNumber(v.credible_low, 3) + " to " +
-              base::ShortNumber(v.credible_high, 3) + (v.prior ? "; prior " + v.prior->text : "") +
-              ")";
+      word += " (90 % " + std::string(p.range.is_nuisance ? "by itself, " : "") +
+              base::ShortNumber(v.credible_low, 3) + " to " +
+              base::WithUnit(v.credible_high, p.unit, 3) +
+              (v.prior ? "; prior " + v.prior->text : "") + ")";
     }
     words.push_back(word + (p.range.is_nuisance ? " (integrated out)" : ""));
   }
-  return " The recommended set is " + base::Listed(words) + "." + Confirmed(evidence);
+  const auto num_asked = std::ranges::count_if(
+      evidence.parameters, [](const ParameterInfo& p) { return !p.range.is_nuisance; });
+  return " The recommended set is " + base::Listed(words) +
+         (num_asked > 1 ? "; credible ranges hold for all parameters asked for together." : ".") +
+         Confirmed(evidence);
 }
 
 // The version and commit of the program that started the campaign.
@@ -64,8 +70,13 @@ std::string Measured(const ReportData& data) {
     words.push_back("the " + row.what + " of \"" + row.experiment + "\" (" + row.measured + ")");
   }
   if (words.empty()) return "";
-  const bool has_images = std::ranges::any_of(data.evidence.answer->experiments,
-                                              &campaign::ResultExperiment::has_image);
+  const campaign::Answer& answer = *data.evidence.answer;
+  const bool has_images =
+      std::ranges::any_of(answer.experiments, [&](const campaign::ResultExperiment& e) {
+        return e.has_image && std::ranges::none_of(data.evidence.fit, [&](const FitRow& row) {
+                 return row.experiment == e.name && row.held_out;
+               });
+      });
   return " Simulations were compared with " + base::Listed(words) +
          (has_images ? "; images after projection into the frame of the experiment's average "
                        "profile, by the SAD."
@@ -129,7 +140,7 @@ std::string MethodsText(const ReportData& data) {
     if (!model.empty()) text += " The model that answers: " + model + ".";
     text += Answered(e);
   }
-  return text;
+  return WithPowers(text);
 }
 
 }  // namespace talus::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/not_known.h"
 #include "experiments/analysis/report/data/profile_views.h"
 #include "experiments/analysis/report/views/answer_words.h"
 
@@ -78,7 +79,7 @@ std::optional<std::size_t> ClosestPair(const ReportData& data) {
 }
 
 double RegionShare(const ReportData& data) {
-  if (data.pairs.empty()) return kUndefined;
+  if (data.pairs.empty()) return base::kNotKnown;
   return InsideShare(*std::ranges::min_element(data.pairs, {}, InsideShare));
 }
 

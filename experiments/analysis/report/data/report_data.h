@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/views/folder_views.h"
@@ -35,8 +36,8 @@ struct MeasuredProfile {
 
 // How far the answer was known after so many trials.
 struct RegionPoint {
-  std::int64_t num_trials = 0;  // that have ended
-  double share = kUndefined;    // RegionShare then
+  std::int64_t num_trials = 0;     // that have ended
+  double share = base::kNotKnown;  // RegionShare then
 };
 
 struct ReportData {

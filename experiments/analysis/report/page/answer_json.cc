@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/predict/prediction_text.h"
@@ -18,7 +19,7 @@ PageValue RepresentativeJson(const ReportData& data, const RepresentativeView& v
   const Criterion& own = data.own().info;
   const double objective =
       has_trial ? own.per_unit * own.Value(view.trial->metrics[*column], data.own().reference)
-                : kUndefined;
+                : base::kNotKnown;
   return {{"values", NumbersJson(view.values)},
           {"recommended", view.is_recommended},
           {"expected", NumberJson(view.expected)},
@@ -203,6 +204,17 @@ PageValue SensitivityJson(const SensitivityView& view) {
           {"moves", ListJson(view.table.moves, move)}};
 }
 
+// The experiment whose misfit the Sobol indices are of: the first with images that the answer rests
+// on. Empty where there is one experiment only.
+std::string SobolExperiment(const campaign::Answer& a) {
+  if (a.experiments.size() < 2) return "";
+  for (const campaign::ResultExperiment& e : a.experiments) {
+    const bool is_held_out = a.posterior && campaign::StandingOf(a, e.name) == nullptr;
+    if (e.has_image && !is_held_out) return e.name;
+  }
+  return "";
+}
+
 PageValue HeadlineJson(const ReportData& data) {
   const Evidence& e = data.evidence;
   const campaign::Answer& a = *e.answer;
@@ -229,10 +241,11 @@ PageValue HeadlineJson(const ReportData& data) {
       {"fit_sentence", FitSentence(e.fit)},
       {"objective_title", objective["title"]},
       {"objective_unit", objective["unit"]},
-      {"predicted", NumberJson(standing != nullptr ? standing->predicted : kUndefined)},
-      {"predicted_sd", NumberJson(standing != nullptr ? standing->predicted_sd : kUndefined)},
-      {"noise_sd", NumberJson(noise_sd.value_or(kUndefined))},
-      {"region_volume", NumberJson(a.posterior ? a.posterior->region_volume : kUndefined)},
+      {"predicted", NumberJson(standing != nullptr ? standing->predicted : base::kNotKnown)},
+      {"predicted_sd", NumberJson(standing != nullptr ? standing->predicted_sd : base::kNotKnown)},
+      {"noise_sd", NumberJson(noise_sd.value_or(base::kNotKnown))},
+      {"region_volume", NumberJson(a.posterior ? a.posterior->region_volume : base::kNotKnown)},
+      {"sobol_of", SobolExperiment(a)},
       {"sobol_first", SobolJson(a, &campaign::ResultParameter::sobol_first)},
       {"sobol_total", SobolJson(a, &campaign::ResultParameter::sobol_total)},
       {"model", a.model}};

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/not_known.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
@@ -44,7 +45,7 @@ double CoreSeconds(const Evidence& e) {
 PageValue ObjectiveJson(const ReportData& data) {
   const ObjectiveFinding& own = data.own();
   // The noise floor is a SAD: no other objective can be held against it.
-  const double floor = own.info.is_sad ? data.evidence.reference.noise_floor : kUndefined;
+  const double floor = own.info.is_sad ? data.evidence.reference.noise_floor : base::kNotKnown;
   const auto shown = [&](double value) { return NumberJson(own.info.per_unit * value); };
   return {{"key", own.info.key},
           {"metric", ShownName(own.info.metric)},

@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "base/not_known.h"
 #include "base/text/number_text.h"
 #include "engine/laws/material.h"
 #include "experiments/analysis/compare/labels.h"
@@ -66,7 +67,7 @@ std::string TradeOffWords(const Evidence& evidence) {
 }
 
 double VolumeThen(const Answer& answer) {
-  if (!answer.unsettled || answer.unsettled->narrowing.empty()) return kUndefined;
+  if (!answer.unsettled || answer.unsettled->narrowing.empty()) return base::kNotKnown;
   double volume = 1;
   for (const campaign::ResultNarrowing& one : answer.unsettled->narrowing) volume *= 1 - one.share;
   return volume;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/views/extras.h"
@@ -14,8 +15,8 @@ namespace talus::analysis {
 struct RepresentativeView {
   std::vector<double> values;  // SI
   bool is_recommended = false;
-  double expected = kUndefined;  // the objective there, by the model that answers
-  double expected_sd = kUndefined;
+  double expected = base::kNotKnown;  // the objective there, by the model that answers
+  double expected_sd = base::kNotKnown;
   const TrialEvidence* trial = nullptr;  // the nearest simulation at the finest scale factor
   double distance = 0;                   // of it, largest difference / searched range
   Picture heap;                          // of it; no PNG where its grains are not kept

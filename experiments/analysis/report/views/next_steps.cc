@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text/counted.h"
+#include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "base/text/shell_text.h"
@@ -13,7 +14,6 @@
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::analysis {
@@ -152,7 +152,7 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
                         " --add-simulations " + more,
                 .cost = more + " simulations, up to " +
-                        trials::DurationText(count * TimeOfOne(evidence)) + " of core time",
+                        base::DurationText(count * TimeOfOne(evidence)) + " of core time",
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};
   if (const double volume = VolumeThen(answer); std::isfinite(volume)) {
@@ -193,7 +193,7 @@ NextStep StepOf(const Evidence& evidence, const NextTableView& table,
                 .cost = candidate.num_simulations == 0
                             ? "no simulation"
                             : base::Counted(candidate.num_simulations, "simulation") + ", " +
-                                  trials::DurationText(candidate.core_time) + " of core time",
+                                  base::DurationText(candidate.core_time) + " of core time",
                 .leaves = {},
                 .remaining = candidate.remaining};
   step.what.front() =

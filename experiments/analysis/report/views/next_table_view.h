@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/views/extras.h"
@@ -21,11 +22,12 @@ struct CandidateView {
   std::string kind;  // as in next.json: "test", "more_runs", …
   std::string name;
   std::string what;                // in words
-  double bits = kUndefined;        // expected; undefined where that is not known
+  double bits = base::kNotKnown;   // expected; undefined where that is not known
   bool needs_simulations = false;  // … before its simulations have been run
   std::vector<double> width;       // of the joint 90 % ranges that it leaves, unit cube; or none
-  double remaining = kUndefined;   // share of what there is to narrow (NextCandidate)
-  double goal = kUndefined;  // half-width of the goal's 90 % that it leaves, where there is a goal
+  double remaining = base::kNotKnown;  // share of what there is to narrow (NextCandidate)
+  double goal =
+      base::kNotKnown;  // half-width of the goal's 90 % that it leaves, where there is a goal
   int num_simulations = 0;
   double core_time = 0;  // [s]
   // The two sets that it tells apart best, SI, with what they would show; or none.
@@ -38,7 +40,7 @@ struct CandidateView {
 struct NextGoalView {
   std::string process;
   std::string metric;
-  double half_width = kUndefined;  // of its 90 % now
+  double half_width = base::kNotKnown;  // of its 90 % now
 };
 
 struct NextTableView {

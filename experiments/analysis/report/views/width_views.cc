@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/not_known.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "optimizer/posterior/credible_ranges.h"
 
@@ -10,7 +11,7 @@ namespace talus::analysis {
 namespace {
 
 WidthView Empty(const Evidence& evidence, const std::string& title, const std::string& means) {
-  const std::vector<double> none(evidence.parameters.size(), kUndefined);
+  const std::vector<double> none(evidence.parameters.size(), base::kNotKnown);
   return {.title = title, .means = means, .low = none, .high = none};
 }
 

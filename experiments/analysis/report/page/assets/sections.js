@@ -16,7 +16,8 @@ function standing() {
 function sensitivityTable() {
   const h = D.headline;
   if (!h || !h.sobol_total.length) return [];
-  return [element("div", {class: "card"}, element("h3", {}, "What the " + inWords(D.campaign.objective) + " depends on"),
+  return [element("div", {class: "card"}, element("h3", {},
+      "What the " + (h.sobol_of ? "misfit of the images of \u201c" + h.sobol_of + "\u201d" : inWords(D.campaign.objective)) + " depends on"),
     table("Sensitivity", [{title: "Parameter", text: true}, {title: "alone (first-order Sobol index)"},
            {title: "with its interactions (total)"}],
       D.parameters.map((p, k) => [p.symbol, shareBar(h.sobol_first[k]), shareBar(h.sobol_total[k])])))];
