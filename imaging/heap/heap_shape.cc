@@ -8,13 +8,13 @@ namespace talus::imaging {
 namespace {
 
 // The lowest row is left out: an error of the baseline below half a pixel falls into it.
-constexpr double kFootLow = 1.0;     // [px]
-constexpr double kFootHigh = 8.0;    // [px]
-constexpr double kFootShare = 0.2;   // of the heap's height, where that is more
-constexpr double kTipWidth = 0.02;   // a flat top narrower than this / base width is a tip
-constexpr double kBroadTop = 0.5;    // an upright cake is broader than this / base near its top,
-constexpr double kUpright = 0.1;     // grows by less than this / base below that,
-constexpr double kToTheFoot = 0.95;  // and is as wide as this / base half-way down
+constexpr double kFootLow = 1.0;    // [px]
+constexpr double kFootHigh = 8.0;   // [px]
+constexpr double kFootShare = 0.2;  // of the heap's height, where that is more
+constexpr double kTipWidth = 0.02;  // a flat top narrower than this / base width is a tip
+constexpr double kBroadTop = 0.5;   // an upright cake is broader than this / base near its top,
+constexpr double kUpright = 0.1;    // grows by less than this / base below that,
+constexpr double kSteep = 0.2;      // and loses less than this / height of its width half-way down
 constexpr double kStraightGrowth = 4 / 3.0;  // between 1 (round) and 5/3 (straight), see Top
 
 // Least squares of the row ends over height, a parabola extended to the baseline: it follows a
@@ -99,7 +99,7 @@ Top FindTop(const Outline& outline, double base_width) {
   // A cake that stands upright, under a top that may be bumpy, is all top: it has no slope.
   const Span half = SpanAbove(outline.height, height / 2);
   if (mid.width() > kBroadTop * base_width && far.width() - mid.width() < kUpright * base_width &&
-      half.width() > kToTheFoot * base_width) {
+      base_width - half.width() < kSteep * height) {
     return {.axis = (half.left + half.right) / 2, .height = height, .flat_width = 2 * base_width};
   }
   const Top round{.axis = VertexOf(outline.height, mid), .height = height};

@@ -251,6 +251,13 @@ TEST(NoAngle, ABluntHeapHasOne) {
     });
     EXPECT_TRUE(MeasureRepose(blunt, SmallFrame())[1].mean.defined()) << power;
   }
+  // Low ones with straight slopes: all of their widths are much the same.
+  for (const auto& [height, degrees] : {std::pair{20.0, 60.0}, {28.0, 70.0}}) {
+    const GrayImage low = Silhouette([&](double x) {
+      return std::clamp((125 - std::abs(x)) * std::tan(degrees * kDegree), 0.0, height);
+    });
+    EXPECT_NEAR(MeasureRepose(low, SmallFrame())[1].mean.value / kDegree, degrees, 3) << degrees;
+  }
   // A flat top that is broad, with slopes on both sides.
   const GrayImage broad =
       Silhouette([](double x) { return std::clamp(60 * (125 - std::abs(x)) / 60, 0.0, 60.0); });
