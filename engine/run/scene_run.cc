@@ -10,6 +10,7 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/counted.h"
 #include "engine/bodies/wall_motion.h"
 #include "engine/run/resisted_spins.h"
 #include "engine/run/state_file.h"
@@ -131,7 +132,28 @@ void SceneRun::CheckStop() {
   } else if (stop.time && simulation_.time() >= *stop.time) {
     state_.stop_reason = "time";
   }
-  if (!state_.stop_reason.empty()) messages_.push_back("ended by stop." + state_.stop_reason);
+  if (!state_.stop_reason.empty()) TellOfEnd();
+}
+
+// What was asked for and will not come any more is said, too.
+void SceneRun::TellOfEnd() {
+  const bool at_rest = state_.stop_reason == "at_rest";
+  messages_.push_back(at_rest ? "ended at rest (stop.energy_fraction)"
+                              : "ended by stop." + state_.stop_reason);
+  for (std::size_t i = 0; i < pours_.size(); ++i) {
+    if (pours_[i].Done(state_.pours[i])) continue;
+    const auto num = static_cast<std::int64_t>(pours_[i].plan().radii.size());
+    messages_.push_back("warning: pours[" + std::to_string(i) +
+                        "]: " + std::to_string(num - state_.pours[i].num_poured) + " of " +
+                        base::Counted(num, "sphere") + " had not been poured by then");
+  }
+  const auto late = std::ranges::count_if(spec_.outputs.times,
+                                          [&](double time) { return time > simulation_.time(); });
+  if (late > 0) {
+    messages_.push_back("warning: outputs.times: " + std::to_string(late) + " of " +
+                        std::to_string(spec_.outputs.times.size()) +
+                        " come after the end and are not written");
+  }
 }
 
 // What lies still before its gate opens, or while its box tilts, is not at its end.

@@ -49,6 +49,7 @@ class SceneRun : public Run {
   void AdvancePours();
   void CheckDomain();
   void CheckStop();
+  void TellOfEnd();
   bool AtRest();
   double LastEvent() const;  // time of the last thing that is prescribed [s]
 

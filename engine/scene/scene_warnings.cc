@@ -1,6 +1,7 @@
 #include "engine/scene/scene_warnings.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -84,6 +85,35 @@ void AddRollingStep(const SceneSpec& spec, const Scene& scene, double dt,
   }
 }
 
+// What is to happen when the scene has ended for certain never does.
+void AddLateEvents(const SceneSpec& spec, double dt, std::vector<std::string>& warnings) {
+  double end = spec.stop.time.value_or(std::numeric_limits<double>::infinity());
+  if (spec.stop.steps) end = std::min(end, static_cast<double>(*spec.stop.steps) * dt);
+  const auto check = [&](const std::string& key, double time) {
+    if (!(time > end * (1 + 1e-9))) return;
+    warnings.push_back(key + ": is " + base::ShortNumber(time) + " s, after the end at " +
+                       base::ShortNumber(end) + " s: nothing comes of it");
+  };
+  for (std::size_t i = 0; i < spec.walls.size(); ++i) {
+    const std::string wall = "walls[" + std::to_string(i) + "].";
+    const WallSpec& w = spec.walls[i];
+    if (w.removed_at) check(wall + "removed_at", *w.removed_at);
+    for (std::size_t k = 0; k < w.motion.size(); ++k) {
+      check(wall + "motion[" + std::to_string(k) + "].time", w.motion[k].time);
+    }
+  }
+  for (std::size_t i = 0; i < spec.gravity_turns.size(); ++i) {
+    check("gravity_turns[" + std::to_string(i) + "].time", spec.gravity_turns[i].time);
+  }
+  for (std::size_t i = 0; i < spec.pours.size(); ++i) {
+    check("pours[" + std::to_string(i) + "].start", spec.pours[i].start);
+  }
+  if (spec.outputs.interval) check("outputs.interval", *spec.outputs.interval);
+  if (!spec.outputs.times.empty() && spec.outputs.times.back() > end) {
+    warnings.push_back("the last of outputs.times comes after stop.steps and is not written");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
@@ -108,10 +138,7 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
     warnings.push_back(text.str());
   }
   AddRollingStep(spec, scene, dt, warnings);
-  if (spec.stop.steps && !spec.outputs.times.empty() &&
-      spec.outputs.times.back() > static_cast<double>(*spec.stop.steps) * dt) {
-    warnings.push_back("the last of outputs.times comes after stop.steps and is not written");
-  }
+  AddLateEvents(spec, dt, warnings);
   return warnings;
 }
 

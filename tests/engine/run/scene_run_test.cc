@@ -10,6 +10,7 @@
 #include "base/files/file.h"
 #include "engine/run/series.h"
 #include "engine/scene/scene_json.h"
+#include "engine/scene/scene_warnings.h"
 
 namespace talus::engine {
 namespace scene_run_test {
@@ -113,6 +114,45 @@ TEST(SceneRun, WarnsOfAdhesionThatDoesNothing) {
   EXPECT_THAT(messages(0, Adhesion::kJkr),
               ElementsAre(HasSubstr("models.adhesion is jkr, but no surface_energy is above 0")));
   EXPECT_THAT(messages(1e-5, Adhesion::kJkr), ::testing::IsEmpty());
+}
+
+// A gate that was to open after the end, and a slip of s for ms, went unseen.
+TEST(SceneRun, WarnsOfWhatIsToHappenAfterTheEnd) {
+  const fs::path file = fs::path(::testing::TempDir()) / "late.json";
+  std::ofstream(file) << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, 0.01]}],
+    "walls": [{"shape": "disc", "diameter": "1 cm", "removed_at": 5},
+              {"shape": "plane", "motion": [{"time": 0.1, "velocity": [0, 0, 0]},
+                                            {"time": 4, "velocity": [0, 0, 0]}]}],
+    "gravity_turns": [{"time": 3, "angular_velocity": [1, 0, 0]}],
+    "outputs": {"interval": 2}, "stop": {"time": 0.3}})";
+  const LoadedScene loaded = LoadScene(file);
+  EXPECT_THAT(
+      SceneWarnings(loaded.spec, loaded.scene),
+      ::testing::ElementsAre(
+          ::testing::HasSubstr("walls[0].removed_at: is 5 s, after the end at 0.3 s"),
+          ::testing::HasSubstr("walls[1].motion[1].time"),
+          ::testing::HasSubstr("gravity_turns[0].time"), ::testing::HasSubstr("outputs.interval")));
+}
+
+// 1 g at 1 g/s, ended after 20 ms: the counts stood in result.json only.
+TEST(SceneRun, SaysAtItsEndWhatWillNotComeAnyMore) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_cut";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "pours": [{"material": "a", "mass": "1 g", "rate": "1 g/s", "mouth_diameter": "8 mm",
+               "sizes": {"kind": "mono", "diameter": "1 mm"}, "mouth": [0, 0, 0.02]}],
+    "walls": [{"shape": "plane"}], "stop": {"time": 0.02}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  std::vector<std::string> messages;
+  while (run.Advance()) {
+  }
+  messages = run.TakeMessages();
+  EXPECT_THAT(messages, ::testing::Contains(::testing::ContainsRegex(
+                            "warning: pours.0.: [0-9]+ of [0-9]+ spheres had not been poured")));
 }
 
 TEST(SceneRun, WarnsOfOutputsAfterTheLastStep) {
