@@ -20,17 +20,18 @@
 namespace talus::rigs {
 namespace {
 
-constexpr double kBoxWidth = 1.2;   // of the box that is filled, in radii
-constexpr double kBoxFloor = 0.2;   // its floor above the lowest point, in radii
-constexpr double kBoxHeight = 1.6;  // in radii
-constexpr double kStill = 0.01;     // grain diameters that nobody sees move
-constexpr double kLump = 0.5;       // of the drum's turns, made by the centre of mass
+constexpr double kBoxWidth = 1.2;       // of the box that is filled, in radii
+constexpr double kBoxFloor = 0.2;       // its floor above the lowest point, in radii
+constexpr double kBoxHeight = 1.6;      // in radii
+constexpr double kStill = 0.01;         // grain diameters that nobody sees move
+constexpr double kFirstRise = 1.0 / 6;  // of a turn, in which any powder goes with its drum
+constexpr double kLump = 0.5;           // of the drum's turns, made by the centre of mass
 
 struct DrumMemory {
   std::vector<double> angles{};  // of the surface at each look [deg]
   int num_carried = 0;           // looks at which powder hangs from the shell in its place
-  int num_looks = 0;
-  double turned = 0;  // turning of the centre of mass over the drum's, summed over looks
+  int num_looks = 0;             // after the first rise
+  double turned = 0;             // turning of the centre of mass over the drum's, summed over looks
 
   static constexpr base::FieldKey kKeys[] = {{"angles", "angles_deg"}};
   TALUS_FIELDS(angles, num_carried, num_looks, turned);
@@ -125,8 +126,10 @@ class DrumRig : public RememberingRig<DrumMemory> {
   std::optional<PhaseEnd> Look() override {
     if (phase_name() != "turning") return std::nullopt;
     const std::vector<engine::Particle>& grains = view().particles;
-    ++memory().num_looks;
-    memory().turned += TurningOfBed(grains);
+    if (Turned() >= kFirstRise) {
+      ++memory().num_looks;
+      memory().turned += TurningOfBed(grains);
+    }
     const auto along = [](const auto& p) { return p.position.x; };
     const double low = MassQuantile(grains, 0.02, along);
     const double high = MassQuantile(grains, 0.98, along);
@@ -162,11 +165,19 @@ class DrumRig : public RememberingRig<DrumMemory> {
   }
 
  private:
-  // Between two avalanches a powder turns with its drum, too, but not as far as this.
+  // Turns of the drum since it began.
+  double Turned() const {
+    const DrumOptions& drum = rig_case().rig.drum;
+    const double measured = simulation().time() - phase_start();
+    return drum.start_turns + measured * drum.speed / (2 * std::numbers::pi);
+  }
+
+  // At first, and between two avalanches, a powder rises with its drum, too, but not as far as
+  // this.
   bool IsLump() const {
-    constexpr double kBeyondAvalanches = 1.0 / 6;  // of a turn
-    return rig_case().rig.drum.turns >= kBeyondAvalanches &&
-           memory().turned > kLump * memory().num_looks;
+    const DrumOptions& drum = rig_case().rig.drum;
+    const double looked_at = drum.turns - std::max(0.0, kFirstRise - drum.start_turns);
+    return looked_at >= kFirstRise && memory().turned > kLump * memory().num_looks;
   }
 
   // How fast the centre of mass goes round the axis, over the drum's speed: on average nothing

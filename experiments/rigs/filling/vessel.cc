@@ -111,8 +111,9 @@ std::string ShallowWarning(const Case& c, const Vessel& vessel) {
   const double height = c.rig.kind == RigKind::kDrum ? DepthInDrum(c) : FilledHeight(c, vessel);
   const double deep = height / EstimatePowder(c).mean_diameter;
   if (deep >= kFewestDeep) return "";
-  return "the bed is only " + base::ShortNumber(deep, 2) +
-         " grains deep: single grains decide; fill in more powder or take a smaller vessel";
+  return "the bed is only " + base::ShortNumber(deep, 2) + " grains deep: single grains decide; " +
+         (c.coarse_graining.scale_factor > 1 ? "take a smaller scale factor, " : "") +
+         "fill in more powder or take a smaller vessel";
 }
 
 }  // namespace talus::rigs

@@ -58,8 +58,8 @@ double FilledVolume(const Case& rig_case, std::int64_t num_grains);
 // How high the powder fills the vessel at the solid fraction of a dense filling [m].
 double FilledHeight(const Case& rig_case, const Vessel& vessel);
 
-// "the bed is 1.2 grains deep: …", where so little is filled in that single grains are what a test
-// measures; empty where it is enough, or where the depth says nothing of it (a heap, a layer).
+// "the bed is only 1.2 grains deep: …", where so little is filled in that single grains are what a
+// test measures; empty where it is enough, or where the depth says nothing of it (a heap, a layer).
 std::string ShallowWarning(const Case& rig_case, const Vessel& vessel);
 
 }  // namespace talus::rigs
