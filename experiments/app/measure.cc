@@ -197,7 +197,9 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_flag("--map", flags.map, "the input is a grey average map, black = powder");
   verb.add_option("--frame", flags.frame,
                   "JSON file with the plate's place, instead of finding it (see docs/imaging.md)");
-  verb.add_option("--tilt", flags.tilt, "with --frame: tilt of the plate, such as 0.5deg");
+  verb.add_option("--tilt", flags.tilt,
+                  "with --frame: tilt of the plate, such as 0.5deg; > 0 where its right "
+                  "end is lower");
   verb.add_option("--pixel-size", flags.pixel_size, "of the profiles, such as 50um");
   verb.add_option("--threshold", flags.threshold,
                   "darker than this share of the background is powder, in (0, 1)");

@@ -41,8 +41,9 @@ bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
 }
 
 // What somebody else has ended says nothing of the case, and what met a limit may do with more.
-bool IsFailure(runners::JobEnd end) {
-  return end == runners::JobEnd::kExit || end == runners::JobEnd::kSignal;
+bool IsFailure(const runners::FinishedJob& job) {
+  const bool by_itself = job.end == runners::JobEnd::kExit || job.end == runners::JobEnd::kSignal;
+  return by_itself && !WasEndedByOthers(job);
 }
 
 // Where none of the cases has succeeded the set-up is wrong, and what mends it need not change the
@@ -139,7 +140,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
-      if (IsFailure(job.end) && !engine.IsComplete(folder)) {
+      if (IsFailure(job) && !engine.IsComplete(folder)) {
         base::WriteFileAtomically(folder / rigs::kFailedFile, base::ExactNumber(job.cpu_time));
       }
       runs.has_ended(index);

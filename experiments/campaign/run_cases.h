@@ -26,7 +26,7 @@ struct CaseRuns {
   std::function<void(std::size_t)> has_ended = [](std::size_t) {};
 };
 
-// What a case took that has failed, and would again as it is prepared now [s]; nothing of others.
+// What a case took whose folder holds the mark of a failure [s]; nothing of others.
 std::optional<double> TimeOfFailure(const std::filesystem::path& folder);
 
 // False when the user ended it; what has ended is kept.

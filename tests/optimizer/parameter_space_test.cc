@@ -161,5 +161,21 @@ TEST(ParameterSpace, WantsOneToSixFreeParameters) {
   EXPECT_THAT(ErrorOf("{\"parameters\": [" + list + "]}"), HasSubstr("7 are free"));
 }
 
+// What is given of a set may break a constraint; what is not known breaks none.
+TEST(ParameterSpace, TheConstraintThatIsBrokenIsNamed) {
+  ParameterSpace space;
+  space.parameters = {{.name = "a", .low = 0, .high = 1}, {.name = "b", .low = 0, .high = 1}};
+  space.constraints = {{.terms = {{"b", 1}, {"a", -0.5}}, .at_most = 0}};
+  const auto broken = [&](double a, double b, double slack = 1e-9) {
+    const std::vector<double> native{a, b};
+    return space.BrokenBy(native, slack).value_or("none");
+  };
+  EXPECT_EQ(broken(0.4, 0.3), "b - 0.5 a <= 0");
+  EXPECT_EQ(broken(0.4, 0.1), "none");
+  EXPECT_EQ(broken(0.201, 0.101), "b - 0.5 a <= 0");
+  EXPECT_EQ(broken(0.201, 0.101, 5e-3), "none");  // 0.1005, typed with three digits
+  EXPECT_EQ(broken(std::nan(""), 0.3), "none");
+}
+
 }  // namespace parameter_space_test
 }  // namespace talus::optimizer

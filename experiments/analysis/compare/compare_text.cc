@@ -59,14 +59,18 @@ Row SetRow(const ObjectiveFinding& f, const std::string& measured,
   return row;
 }
 
-// "yes, and in 4 of 4 refits without a part of the trials"; "no, but in 3 of 4 refits …"
+// "yes, and in 4 of 4 refits without a part of the trials"; "no, but in 3 of 4 refits …"; "yes, but
+// only in 3 of 4 …"; "no, and in none of 4 …"
 std::string HoldsText(const ObjectiveKnowledge& k) {
   if (!k.absent.empty()) return k.absent;
   std::string text = k.Holds() ? "yes" : "no";
   if (k.num_refits > 0) {
-    const bool differs = (k.Holds() ? k.num_refits - k.num_holding : k.num_holding) > 0;
-    text += (differs ? ", but in " : ", and in ") + std::to_string(k.num_holding) + " of " +
-            std::to_string(k.num_refits) + " refits without a part of the trials";
+    const bool is_all = k.num_holding == k.num_refits;
+    const std::string some = k.num_holding == 0 ? "none" : std::to_string(k.num_holding);
+    const char* const link = k.Holds() ? (is_all ? ", and in " : ", but only in ")
+                                       : (k.num_holding > 0 ? ", but in " : ", and in ");
+    text += link + some + " of " + std::to_string(k.num_refits) +
+            " refits without a part of the trials";
   }
   return text;
 }

@@ -52,7 +52,9 @@ std::string ValueHere(const rigs::Case& rig_case, const FixedMove& recorded) {
   const auto own = campaign::ParameterOf(rig_case, recorded.name);
   const double from = campaign::ParseProperty(recorded.name, recorded.from);
   const double to = campaign::ParseProperty(recorded.name, recorded.to);
-  return own && from > 0 ? base::ExactNumber(*own * to / from) : recorded.to;
+  const std::string unit = campaign::UnitOf(recorded.name);
+  if (!own || !(from > 0) || base::WithUnit(*own, unit) == recorded.from) return recorded.to;
+  return base::ExactNumber(*own * to / from);
 }
 
 // The same of this test: as usual what was moved as usual, else to the value that the user gave.

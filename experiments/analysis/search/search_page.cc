@@ -123,11 +123,13 @@ int ValueDigits(const SearchFolder& search) {
   return static_cast<int>(std::min(kMost, 4 + std::ceil(std::max(0.0, shared))));
 }
 
-// Why the last evaluation failed, where the first eight or more all have: the command is wrong
-// then. Null else.
+// Why the last evaluation failed, where the first eight, or all, have: the command is wrong then.
+// Null else.
 const std::string* AllFailed(const SearchFolder& search) {
   constexpr std::size_t kHopeless = 8;
-  if (search.evaluations.size() < kHopeless || BestOf(search) != nullptr) return nullptr;
+  const std::size_t num_all = static_cast<std::size_t>(std::max(1, search.most_evaluations));
+  const bool are_enough = search.evaluations.size() >= std::min(kHopeless, num_all);
+  if (!are_enough || BestOf(search) != nullptr) return nullptr;
   return &search.evaluations.back().failure;
 }
 
@@ -200,10 +202,11 @@ std::vector<std::string> Head(const SearchFolder& search) {
 
 std::string EvaluationTable(const SearchFolder& search) {
   std::string table = "<table>" + HtmlRow(Head(search), "th");
+  const int digits = ValueDigits(search);
   for (const SearchEvaluation& one : search.evaluations) {
     std::vector<std::string> cells{std::to_string(one.number)};
     for (const double value : one.values) cells.push_back(Print(value));
-    cells.push_back(one.value ? Print(*one.value, ValueDigits(search)) : "");
+    cells.push_back(one.value ? Print(*one.value, digits) : "");
     cells.push_back(one.failure);
     table += HtmlRow(cells);
   }

@@ -94,6 +94,7 @@ std::string ImplausibilityText(const ResultStanding& standing) {
 
 int MoreSimulations(const Answer& answer) {
   const int num_more = answer.unsettled ? answer.unsettled->num_more : 0;
+  if (AsksForSimulations(answer)) return std::max(num_more, kMoreSimulations);  // as the alarms say
   return num_more > 0 ? num_more : kMoreSimulations;
 }
 

@@ -164,8 +164,8 @@ GivenSet ReadSet(const optimizer::ParameterSpace& space,
       problems.Add(p.name, error.what());
     }
   }
-  constexpr double kTyped =
-      2e-3;  // relative: an answer that lies on one is typed with three digits
+  // Relative: an answer that lies on a constraint is typed with three digits.
+  constexpr double kTyped = 5e-3;
   if (const auto broken = space.BrokenBy(NativeOf(space, read), kTyped)) {
     problems.Add("constraints", "the set breaks " + *broken);
   }

@@ -100,6 +100,11 @@ TEST(SearchPage, OfACommandThatNeverSucceededSaysWhy) {
   }
   EXPECT_THAT(SearchPage(search), HasSubstr("All have failed, the last: exit status 3: oops."));
   EXPECT_THAT(SearchPage(search), HasSubstr("mend the command"));
+  SearchFolder few = search;  // a budget below eight
+  few.evaluations.resize(5);
+  EXPECT_THAT(SearchPage(few), HasSubstr("has not ended"));
+  few.most_evaluations = 5;
+  EXPECT_THAT(SearchPage(few), HasSubstr("All have failed"));
   // Values that differ in the seventh digit are shown with it.
   search.evaluations.push_back({.number = 9, .values = {0.5}, .value = 1234567});
   search.evaluations.push_back({.number = 10, .values = {0.6}, .value = 1234568});

@@ -229,6 +229,17 @@ TEST(Alarms, AGoalThatIsMissedIsSaid) {
   EXPECT_THAT(GoalAlarms(spec, state), IsEmpty());
 }
 
+// Three alarms asked for 20 simulations, and the step that was to be rid of them for 7.
+TEST(Alarms, TheNextStepHasNoFewerSimulationsThanTheAlarmsAskFor) {
+  Answer answer;
+  answer.unsettled = {.num_more = 7};
+  EXPECT_EQ(MoreSimulations(answer), 7);
+  answer.warnings = {{.kind = AlarmKind::kPoorModel}};
+  EXPECT_EQ(MoreSimulations(answer), kMoreSimulations);
+  answer.unsettled->num_more = 160;
+  EXPECT_EQ(MoreSimulations(answer), 160);
+}
+
 TEST(Alarms, ABudgetThatEndedTheSearchSaysHowToGoOn) {
   Answer result;
   EXPECT_THAT(BudgetAlarms(result), IsEmpty());

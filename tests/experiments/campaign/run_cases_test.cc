@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/drawn_runner.h"
@@ -14,6 +19,31 @@ namespace talus::campaign {
 namespace run_cases_test {
 
 namespace fs = std::filesystem;
+
+// Ends every job with this exit status, and leaves nothing.
+class EndsBy : public runners::Runner {
+ public:
+  explicit EndsBy(int status) : status_(status) {}
+  int Capacity() const override { return 1; }
+  bool JobsOutliveUs() const override { return false; }
+  std::vector<std::string> Submit(std::span<const runners::Job> jobs) override {
+    for (const runners::Job& job : jobs) ids_.push_back(job.id);
+    return std::vector<std::string>(jobs.size());
+  }
+  bool Adopt(const runners::Job&, const std::string&) override { return false; }
+  std::vector<runners::FinishedJob> Wait(double) override {
+    std::vector<runners::FinishedJob> finished;
+    for (const std::int64_t id : std::exchange(ids_, {})) {
+      finished.push_back({.id = id, .exit_status = status_, .reason = {}, .host = {}});
+    }
+    return finished;
+  }
+  void Cancel(std::int64_t) override {}
+
+ private:
+  int status_;
+  std::vector<std::int64_t> ids_;
+};
 
 class FailedCasesTest : public CampaignFixture {
  protected:
@@ -46,6 +76,23 @@ TEST_F(FailedCasesTest, WhatFailedBesideOthersIsNotMadeAgain) {
   EXPECT_TRUE(Run({0.2, 0.5}, false));  // without a program: whatever it had to run would stop it
   EXPECT_TRUE(Run({0.6, 0.5}));         // another case in the same place is none that failed
   EXPECT_FALSE(TimeOfFailure(Place(0)).has_value());
+}
+
+// One that somebody ended has saved a checkpoint, and exits by 130: it was never run again.
+TEST_F(FailedCasesTest, WhatWasInterruptedHasNotFailed) {
+  ASSERT_TRUE(Run({0.5}));  // where nothing has succeeded no marks are kept
+  const JointView view = ReadJointView(folder_);
+  for (const int status : {base::kExitInterrupted, 1}) {
+    const CampaignParts parts{.runner = std::make_unique<EndsBy>(status),
+                              .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    const auto at = [&](std::size_t i) {
+      rigs::Case rig_case = TypicalCase(view.spec, 0, 1);
+      rig_case.powder.material.sliding_friction = 0.5 + 0.1 * static_cast<double>(i);
+      return FolderCase{.folder = Place(i), .rig_case = rig_case};
+    };
+    RunCases({.count = 2, .at = at, .time_cap = 60}, parts);
+    EXPECT_EQ(TimeOfFailure(Place(1)).has_value(), status == 1);
+  }
 }
 
 // Marks that an earlier call left where nothing had succeeded: a mended set-up was never asked

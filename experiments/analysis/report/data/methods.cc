@@ -21,7 +21,7 @@ std::string Searched(const Evidence& evidence) {
         base::WithUnit(p.range.high, p.unit, 3) +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }
-  return base::Listed(words);
+  return WithPowers(base::Listed(words));
 }
 
 // As confirmed, of every experiment.
@@ -43,17 +43,20 @@ std::string Answered(const Evidence& evidence) {
     const campaign::ResultParameter& v = evidence.answer->parameters[k];
     std::string word = p.symbol + " = " + base::WithUnit(v.value, p.unit, 3);
     if (std::isfinite(v.credible_low)) {
-      word += " (90 % " + std::string(p.range.is_nuisance ? "by itself, " : "") +
+      word += " (90 % credible range " + std::string(p.range.is_nuisance ? "by itself, " : "") +
               base::ShortNumber(v.credible_low, 3) + " to " +
               base::WithUnit(v.credible_high, p.unit, 3) +
               (v.prior ? "; prior " + v.prior->text : "") + ")";
     }
     words.push_back(word + (p.range.is_nuisance ? " (integrated out)" : ""));
   }
-  const auto num_asked = std::ranges::count_if(
-      evidence.parameters, [](const ParameterInfo& p) { return !p.range.is_nuisance; });
-  return " The recommended set is " + base::Listed(words) +
-         (num_asked > 1 ? "; credible ranges hold for all parameters asked for together." : ".") +
+  std::size_t num_ranges = 0;  // of what is asked for
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    num_ranges += !evidence.parameters[k].range.is_nuisance &&
+                  std::isfinite(evidence.answer->parameters[k].credible_low);
+  }
+  return " The recommended set is " + WithPowers(base::Listed(words)) +
+         (num_ranges > 1 ? "; credible ranges hold for all parameters asked for together." : ".") +
          Confirmed(evidence);
 }
 
@@ -140,7 +143,7 @@ std::string MethodsText(const ReportData& data) {
     if (!model.empty()) text += " The model that answers: " + model + ".";
     text += Answered(e);
   }
-  return WithPowers(text);
+  return text;
 }
 
 }  // namespace talus::analysis
