@@ -16,7 +16,7 @@ namespace talus::engine {
 
 // Beds came to rest up to 0.43 and never above 0.48 (docs/validation.md, Time step).
 inline constexpr double kMostDampedShare = 0.36;
-// Heaps were those of a step of half the length up to 0.79, and lower from 0.80 on (the same page).
+// Heaps were those of shorter steps up to 0.79, and lower from 0.80 on (the same page).
 inline constexpr double kMostSpringPhase = 0.7;
 
 // Like grains in a bed.

@@ -18,8 +18,11 @@ namespace {
 constexpr double kLeastLight = 0.25;   // share of a circle that is light: the ring hides it no more
 constexpr double kBeyondRing = 0.01;   // farther in, as the lens blurs the ring / radius
 constexpr double kThickestRing = 0.1;  // / radius
-constexpr double kLeastContrast = 40;  // of powder and light [grey levels]
-constexpr double kSameCircle = 0.01;   // how far circles of one series may differ / radius
+constexpr double kLeastContrast =
+    40;                               // of powder and light [grey levels]; less where both are dim:
+constexpr double kDimContrast = 12;   // as long as it is above the camera's noise
+constexpr double kDimShare = 0.5;     // and half of the light
+constexpr double kSameCircle = 0.01;  // how far circles of one series may differ / radius
 
 double Radius(const DrumCircle& circle, int x, int y) {
   return std::hypot(x + 0.5 - circle.center_x, y + 0.5 - circle.center_y);
@@ -34,7 +37,9 @@ TwoClasses Levels(const GrayImage& photo, const DrumCircle& circle, const std::s
     }
   }
   const TwoClasses classes = SplitByOtsu(levels);
-  if (classes.light - classes.dark >= kLeastContrast) return classes;
+  const double contrast = classes.light - classes.dark;
+  const bool is_dim = contrast >= kDimContrast && contrast >= kDimShare * classes.light;
+  if (contrast >= kLeastContrast || is_dim) return classes;
   throw base::ConfigError(name +
                           ": shows no powder before a light background in the drum; light it from "
                           "behind");

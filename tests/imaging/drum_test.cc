@@ -184,6 +184,17 @@ TEST(Drum, ADimPhotographIsRead) {
   EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
 }
 
+// 40 grey levels of light and 8 of powder were "no powder before a light background".
+TEST(Drum, AVeryDimPhotographIsRead) {
+  GrayImage photo = Draw({.angle = 33 * kDegree});
+  for (std::uint8_t& level : photo.pixels) {
+    level = static_cast<std::uint8_t>(8 + (level - 25) * 32.0 / 215 + 0.5);
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("very_dim", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.3);
+  EXPECT_NEAR(drum.surface.fill.value, Segment(0.2), 0.01);
+}
+
 // A ring of which 0.6 px are below the picture, which is allowed: the axis stays where it is.
 TEST(Drum, OneThatIsCutALittleAtTheBottomKeepsItsAxis) {
   GrayImage photo = Draw({.angle = 33 * kDegree});
