@@ -188,6 +188,17 @@ class Names(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("named twice", done.stderr)
 
+    # By the folders' names 1.5g stood before 1g.
+    def test_the_table_of_a_mass_study_goes_by_mass(self):
+        masses = ["1.5g", "1g", "2.0g"]
+        photos = self.copy(lambda run, view: f"{masses[run]}/IMG_{view}.jpg")
+        out = self.folder / "study"
+        done = run(*[photos / mass for mass in masses], "--choose-mass", "--plate-diameter", "10mm", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with (out / "mass_study.csv").open() as rows:
+            found = [float(row["mass_kg"]) for row in csv.DictReader(rows)]
+        self.assertEqual(found, [1e-3, 1.5e-3, 2e-3])
+
     def test_several_heaps_in_one_folder_are_never_silently_one(self):
         named = {
             "time": (lambda run, view: f"IMG_20260131_1{run}0{view}11.jpg", "taken 55 min after IMG_20260131_100511.jpg"),

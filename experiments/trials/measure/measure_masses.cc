@@ -222,6 +222,7 @@ void MeasureMasses(const MeasureRequest& request, std::ostream& print) {
   for (const MassFolder& folder : FindFolders(request.inputs, request.experiment.pattern)) {
     std::ranges::copy(MeasureFolder(folder, request.experiment, print), std::back_inserter(runs));
   }
+  std::ranges::stable_sort(runs, {}, &imaging::MassRun::mass);  // "1.5g" stands before "1g"
   const imaging::MassStudy study = imaging::StudyMass(runs);
   print << StudyText(study);
   if (request.out.empty()) return;
