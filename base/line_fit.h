@@ -1,6 +1,9 @@
 // The least-squares line through points that come one by one.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace talus::base {
 
 struct StraightLine {
@@ -30,6 +33,9 @@ class LineFit {
   double Slope() const { return sxy_ / sxx_; }    // NaN unless it is determined
   StraightLine Line() const { return {.at_zero = mean_y_ - Slope() * mean_x_, .slope = Slope()}; }
   double Squares() const { return syy_ - Slope() * sxy_; }  // of the points' distances in y, summed
+  double Rms() const { return std::sqrt(std::max(0.0, Squares()) / count_); }
+  // y of the best line of another slope: it goes through the points' centre, too.
+  double At(double x, double slope) const { return mean_y_ + slope * (x - mean_x_); }
 
  private:
   int count_ = 0;

@@ -26,6 +26,8 @@ TEST(LineFit, LeavesTheLeastSquares) {
   EXPECT_NEAR(fit.Slope(), 0, 1e-15);
   EXPECT_NEAR(fit.Line().at_zero, 1.0 / 3, 1e-15);
   EXPECT_NEAR(fit.Squares(), 2.0 / 3, 1e-15);
+  EXPECT_NEAR(fit.Rms(), std::sqrt(2.0 / 9), 1e-15);
+  EXPECT_NEAR(fit.At(3, 1), 1.0 / 3 + 2, 1e-15);  // of slope 1, through (1, 1/3)
 }
 
 TEST(LineFit, FarFromZeroLosesNoDigits) {

@@ -1,6 +1,7 @@
 #include "experiments/rigs/filling/vessel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numbers>

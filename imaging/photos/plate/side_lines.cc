@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "base/line_fit.h"
 #include "imaging/one_thread.h"
 
 namespace talus::imaging {
@@ -64,38 +65,6 @@ double Crossing(const BacklitPhoto& photo, int row, int dark, int light) {
   return dark + 0.5 + share * (light - dark);
 }
 
-// Least-squares line of one side, row by row.
-class LineFit {
- public:
-  void Add(double y, double x) {
-    n_ += 1;
-    sum_y_ += y;
-    sum_x_ += x;
-    sum_yy_ += y * y;
-    sum_xy_ += x * y;
-    sum_xx_ += x * x;
-  }
-  double slope() const {
-    return (n_ * sum_xy_ - sum_x_ * sum_y_) / (n_ * sum_yy_ - sum_y_ * sum_y_);
-  }
-  double At(double y, double with_slope) const {
-    return (sum_x_ + with_slope * (n_ * y - sum_y_)) / n_;
-  }
-  double Rms() const {
-    const double a = At(0, slope());
-    const double squares = sum_xx_ - a * sum_x_ - slope() * sum_xy_;
-    return std::sqrt(std::max(squares, 0.0) / n_);
-  }
-
- private:
-  double n_ = 0;
-  double sum_y_ = 0;
-  double sum_x_ = 0;
-  double sum_yy_ = 0;
-  double sum_xy_ = 0;
-  double sum_xx_ = 0;
-};
-
 // The rows from `first` on that stay straight.
 class Grower {
  public:
@@ -116,7 +85,7 @@ class Grower {
 
  private:
   int Length() const { return last_ - first_ + 1; }
-  double MeanSlope() const { return (left_.slope() + right_.slope()) / 2; }
+  double MeanSlope() const { return (left_.Slope() + right_.Slope()) / 2; }
   const std::optional<SideEnds>& Next() const {
     static const std::optional<SideEnds> kNone;
     const auto row = static_cast<std::size_t>(last_ + 1);
@@ -130,7 +99,7 @@ class Grower {
   bool Straight() const {
     const double noise = kSlopeNoise / Length();
     return left_.Rms() < kLargestRms && right_.Rms() < kLargestRms &&
-           std::abs(left_.slope() - right_.slope()) < 2 * noise &&
+           std::abs(left_.Slope() - right_.Slope()) < 2 * noise &&
            std::abs(MeanSlope()) < kLargestSlope + noise;
   }
   bool Fits(const SideEnds& ends) const {
@@ -142,8 +111,8 @@ class Grower {
   const std::vector<std::optional<SideEnds>>& sides_;
   int first_;
   int last_;
-  LineFit left_;
-  LineFit right_;
+  base::LineFit left_;  // its column over the rows from `first` on
+  base::LineFit right_;
 };
 
 // The columns of a row that reaches the left or right border [px].
