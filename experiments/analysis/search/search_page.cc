@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/files/file.h"
@@ -14,6 +15,7 @@
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
 #include "experiments/analysis/report/page/plain_page.h"
+#include "experiments/trials/optimize/optimize_folder.h"
 
 namespace talus::analysis {
 namespace {
@@ -126,9 +128,8 @@ int ValueDigits(const SearchFolder& search) {
 // Why the last evaluation failed, where the first eight, or all, have: the command is wrong then.
 // Null else.
 const std::string* AllFailed(const SearchFolder& search) {
-  constexpr std::size_t kHopeless = 8;
-  const std::size_t num_all = static_cast<std::size_t>(std::max(1, search.most_evaluations));
-  const bool are_enough = search.evaluations.size() >= std::min(kHopeless, num_all);
+  const int enough = std::min(trials::kHopeless, std::max(1, search.most_evaluations));
+  const bool are_enough = std::cmp_greater_equal(search.evaluations.size(), enough);
   if (!are_enough || BestOf(search) != nullptr) return nullptr;
   return &search.evaluations.back().failure;
 }

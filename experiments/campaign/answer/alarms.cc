@@ -207,7 +207,7 @@ std::vector<Alarm> MissAlarms(const Answer& answer) {
   for (const MeasurementFit& fit : FitsOf(answer)) {
     const ResultStanding* standing = StandingOf(answer, fit.experiment);
     if (fit.meets != Meets::kNo) continue;
-    if (answer.posterior && standing == nullptr) continue;  // it is held out
+    if (IsHeldOut(answer, fit.experiment)) continue;
     if (standing != nullptr && standing->implausibility > kImplausible) continue;
     const std::optional<std::string> fault = SearchFault(answer, fit);
     Alarm alarm{.kind = fault ? AlarmKind::kSearchMisses : AlarmKind::kMisses,

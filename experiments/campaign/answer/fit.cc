@@ -203,6 +203,10 @@ std::string SpokenOf(const MeasurementFit& fit) {
          fit.experiment + "\"";
 }
 
+bool IsHeldOut(const Answer& answer, std::string_view experiment) {
+  return answer.posterior && StandingOf(answer, experiment) == nullptr;
+}
+
 std::vector<MeasurementFit> FitsOf(const Answer& answer) {
   std::vector<MeasurementFit> fits;
   for (const ResultExperiment& experiment : answer.experiments) {

@@ -64,6 +64,9 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
 // Every measurement, in the campaign's order.
 std::vector<MeasurementFit> FitsOf(const Answer& answer);
 
+// Whether the posterior was made without the experiment; without a posterior nothing tells.
+bool IsHeldOut(const Answer& answer, std::string_view experiment);
+
 // Every measurement that a set which was simulated again can be judged by, the farthest first:
 // `off` in what is still a fit, so that it misses above 1; infinite where one does not exist there.
 std::vector<MeasurementFit> DistancesOf(const Answer& answer, const ResultCandidate& candidate);

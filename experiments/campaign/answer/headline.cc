@@ -179,8 +179,9 @@ std::string LeftOpen(const Answer& answer) {
   std::vector<std::string> open;
   for (const MeasurementFit& fit : FitsOf(answer)) {
     const bool is_judged = !std::isnan(fit.off);  // and is no fit, or it would be met
-    const bool is_held_out = answer.posterior && StandingOf(answer, fit.experiment) == nullptr;
-    if (fit.meets == Meets::kUnknown && is_judged && !is_held_out) open.push_back(SpokenOf(fit));
+    if (fit.meets == Meets::kUnknown && is_judged && !IsHeldOut(answer, fit.experiment)) {
+      open.push_back(SpokenOf(fit));
+    }
   }
   return base::Listed(open);
 }

@@ -150,7 +150,7 @@ double LeftOf(const SvgAxis& axis) {
 }  // namespace
 
 SvgChart::SvgChart(SvgAxis x, SvgAxis y, bool equal_scale)
-    : x_(std::move(x)), y_(std::move(y)), plot_height_(kPlotHeight) {
+    : x_(std::move(x)), y_(std::move(y)), plot_height_(kPlotHeight), left_(LeftOf(y_)) {
   if (equal_scale) plot_height_ = kPlotWidth * (y_.high - y_.low) / (x_.high - x_.low);
 }
 
@@ -228,16 +228,16 @@ std::string SvgChart::AxesText() const {
     text += "<path d=\"M0 " + Pixel(y) + "h-5\"" + stroke + "/>\n" + Words(-9, y + 5, "end", label);
   }
   text += Words(kPlotWidth / 2, plot_height_ + 44, "middle", x_.title);
-  return text + "<g transform=\"translate(" + Pixel(16 - LeftOf(y_)) + " " +
-         Pixel(plot_height_ / 2) + ") rotate(-90)\">" + Words(0, 0, "middle", y_.title) + "</g>\n";
+  return text + "<g transform=\"translate(" + Pixel(16 - left_) + " " + Pixel(plot_height_ / 2) +
+         ") rotate(-90)\">" + Words(0, 0, "middle", y_.title) + "</g>\n";
 }
 
 std::string SvgChart::LegendText() const {
   std::string text;
   double y = 14;
   for (const Entry& entry : legend_) {
-    text += "<g transform=\"translate(" + Pixel(LeftOf(y_) + 12) + " " + Pixel(y) + ")\">" +
-            entry.mark + "</g>\n" + Words(LeftOf(y_) + 28, y + 5, "start", entry.name);
+    text += "<g transform=\"translate(" + Pixel(left_ + 12) + " " + Pixel(y) + ")\">" + entry.mark +
+            "</g>\n" + Words(left_ + 28, y + 5, "start", entry.name);
     y += kLegendLine;
   }
   return text;
@@ -246,14 +246,14 @@ std::string SvgChart::LegendText() const {
 std::string SvgChart::Text() const {
   const double top = 14 + kLegendLine * static_cast<double>(legend_.size());
   const std::string height = Pixel(top + plot_height_ + kBottom);
-  const std::string width = Pixel(LeftOf(y_) + kPlotWidth + kRight);
+  const std::string width = Pixel(left_ + kPlotWidth + kRight);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
          "\" viewBox=\"0 0 " + width + " " + height + "\" role=\"img\" " + kFont + " fill=\"" +
          kInk + "\">\n<title>" + base::MarkupText(y_.title + " over " + x_.title) +
          "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + LegendText() +
          "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) + "\" height=\"" +
-         Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(LeftOf(y_)) +
-         " " + Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +
+         Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(left_) + " " +
+         Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +
          "</g>\n</svg>\n";
 }
 

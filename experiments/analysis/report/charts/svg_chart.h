@@ -65,6 +65,7 @@ class SvgChart {
   SvgAxis x_;
   SvgAxis y_;
   double plot_height_ = 0;  // [px]
+  double left_ = 0;         // of the plot, beside the upright axis [px]
   std::string body_;
   std::vector<Entry> legend_;
 };

@@ -7,6 +7,7 @@
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -209,8 +210,7 @@ PageValue SensitivityJson(const SensitivityView& view) {
 std::string SobolExperiment(const campaign::Answer& a) {
   if (a.experiments.size() < 2) return "";
   for (const campaign::ResultExperiment& e : a.experiments) {
-    const bool is_held_out = a.posterior && campaign::StandingOf(a, e.name) == nullptr;
-    if (e.has_image && !is_held_out) return e.name;
+    if (e.has_image && !campaign::IsHeldOut(a, e.name)) return e.name;
   }
   return "";
 }
