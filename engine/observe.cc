@@ -152,9 +152,7 @@ std::vector<ContactInfo> SimulationState::Contacts() const {
                                             : WallContact(particles, i, walls.views()[run.wall]);
         if (!(contact.overlap > 0)) continue;
         History<double> history = HistoryOf(block, lane, units);
-        PairConstants pair = constants[run.constants];
-        pair.keeps_spring = pair.keeps_spring && run.wall < 0;
-        const Vec3 force = ToVec3(law(pair, contact, dt, history).force);
+        const Vec3 force = ToVec3(law(constants[run.constants], contact, dt, history).force);
         ContactInfo info{particles.ids[i], run.wall < 0 ? particles.ids[j] : -1 - run.wall,
                          contact.overlap, ToVec3(contact.normal), force};
         if (run.wall < 0 && info.second < info.first) {

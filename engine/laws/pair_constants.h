@@ -17,7 +17,7 @@ struct PairConstantsOf {
   T tangential_damping = 0;   // η_t / √(s m*) = 2√(5/6) β √(8G*) [√Pa] (N4)
   T sliding_friction = 0;     // μ_t [-] (P5)
   T rolling_friction = 0;     // μ_r [-] (P5)
-  T rolling_per_speed = 1;    // of the viscous law [s/m] (R5)
+  T rolling_per_speed = 1;    // of the viscous rolling law: 1 s/m, in the engine's units
   T rolling_stiffness = 0;    // k_r / (s R*²) = 2.25 (4/3) Y* μ_r² [Pa] (R1)
   T rolling_damping = 0;      // C_r / (R* √(s I*)) = 2 η_r √rolling_stiffness [√Pa] (R3)
   T mobilised_damping = 0;    // f [-] (R4)

@@ -98,6 +98,7 @@ void AddLateEvents(const SceneSpec& spec, double dt, std::vector<std::string>& w
     const std::string wall = "walls[" + std::to_string(i) + "].";
     const WallSpec& w = spec.walls[i];
     if (w.removed_at) check(wall + "removed_at", *w.removed_at);
+    if (w.taps) check(wall + "taps.start", w.taps->start);
     for (std::size_t k = 0; k < w.motion.size(); ++k) {
       check(wall + "motion[" + std::to_string(k) + "].time", w.motion[k].time);
     }

@@ -53,7 +53,9 @@ TEST(PairConstants, UnequalMaterialsMixByTheirOwnMeans) {
   a.restitution = 0.9, b.restitution = 0.5;
   a.sliding_friction = 0.2, b.sliding_friction = 0.6;
   a.rolling_friction = 0.1, b.rolling_friction = 0.3;
+  a.rolling_damping = 0.2, b.rolling_damping = 0.6;
   a.surface_energy = 2e-4, b.surface_energy = 8e-4;
+  a.hamaker_constant = 2e-19, b.hamaker_constant = 6e-19;
   const ContactModels models{.adhesion = Adhesion::kDmt};
   const PairConstants pair = MakePairConstants(a, b, models);
   EXPECT_DOUBLE_EQ(1 / pair.y_star, (1 - 0.09) / 1e7 + (1 - 0.04) / 3e7);
@@ -61,6 +63,9 @@ TEST(PairConstants, UnequalMaterialsMixByTheirOwnMeans) {
   EXPECT_DOUBLE_EQ(pair.sliding_friction, 2 * 0.2 * 0.6 / 0.8);
   EXPECT_DOUBLE_EQ(pair.rolling_friction, 2 * 0.1 * 0.3 / 0.4);
   EXPECT_DOUBLE_EQ(pair.surface_energy, 2 * std::sqrt(2e-4 * 8e-4));
+  EXPECT_DOUBLE_EQ(6 * pair.hamaker, (2e-19 + 6e-19) / 2);
+  EXPECT_DOUBLE_EQ(pair.rolling_damping / std::sqrt(pair.rolling_stiffness),
+                   2 * 2 * 0.2 * 0.6 / 0.8);
   // Damping goes by β = −ln e / √(ln² e + π²), at e = 2 · 0.9 · 0.5 / 1.4 (N2, N4).
   const double log_e = std::log(2 * 0.9 * 0.5 / 1.4);
   const double beta = -log_e / std::hypot(log_e, std::numbers::pi);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/files/file.h"
 #include "engine/run/series.h"
@@ -50,6 +51,40 @@ TEST(Series, WallsOfOneNameHaveColumnsOfTheirOwn) {
   for (const char* column : {",side_fx_N", ",wall1_fx_N", ",side_2_fx_N", ",wall1_2_fx_N"}) {
     EXPECT_THAT(head, ::testing::HasSubstr(column));
   }
+}
+
+// Two spheres fall through a section and out of the domain, the second later: the mass below it is
+// that of both, what left the domain there included, and its rate adds up to it.
+TEST(Series, ASectionCountsWhatHasLeftTheDomain) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_section";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, "1 cm"]},
+                {"diameter": "1 mm", "position": ["1 cm", 0, "3 cm"]}],
+    "domain": {"low": [-1, -1, "-1 cm"], "high": [1, 1, 1]},
+    "stop": {"time": 0.15},
+    "outputs": {"interval": "10 ms", "sections": [{"name": "gate", "position": [0, 0, 0]}]}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  while (run.Advance()) {
+  }
+  run.WriteResults({});
+  std::istringstream rows(base::ReadFile(folder / "series.csv"));
+  std::string row;
+  std::getline(rows, row);
+  ASSERT_EQ(row, "time_s,num_spheres,gate_kg,gate_kg_s");
+  double time = 0, num_spheres = 0, mass = 0, rate = 0, passed = 0, before = 0;
+  char comma = 0;
+  while (std::getline(rows, row)) {
+    std::istringstream(row) >> time >> comma >> num_spheres >> comma >> mass >> comma >> rate;
+    passed += rate * (time - before);
+    before = time;
+  }
+  const double both = 2 * SphereMass(loaded.scene.materials[0], 0.5e-3);
+  EXPECT_EQ(num_spheres, 0);
+  EXPECT_NEAR(mass / both, 1, 1e-12);
+  EXPECT_NEAR(passed / both, 1, 1e-9);
 }
 
 // A quotient that rounds down made a row come twice, with a rate of 0 / 0.
@@ -122,7 +157,8 @@ TEST(SceneRun, WarnsOfWhatIsToHappenAfterTheEnd) {
   std::ofstream(file) << R"({
     "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
     "spheres": [{"diameter": "1 mm", "position": [0, 0, 0.01]}],
-    "walls": [{"shape": "disc", "diameter": "1 cm", "removed_at": 5},
+    "walls": [{"shape": "disc", "diameter": "1 cm", "removed_at": 5,
+               "taps": {"height": "1 mm", "interval": "50 ms", "count": 3, "start": 6}},
               {"shape": "plane", "motion": [{"time": 0.1, "velocity": [0, 0, 0]},
                                             {"time": 4, "velocity": [0, 0, 0]}]}],
     "gravity_turns": [{"time": 3, "angular_velocity": [1, 0, 0]}],
@@ -132,6 +168,7 @@ TEST(SceneRun, WarnsOfWhatIsToHappenAfterTheEnd) {
       SceneWarnings(loaded.spec, loaded.scene),
       ::testing::ElementsAre(
           ::testing::HasSubstr("walls[0].removed_at: is 5 s, after the end at 0.3 s"),
+          ::testing::HasSubstr("walls[0].taps.start: is 6 s"),
           ::testing::HasSubstr("walls[1].motion[1].time"),
           ::testing::HasSubstr("gravity_turns[0].time"), ::testing::HasSubstr("outputs.interval")));
 }

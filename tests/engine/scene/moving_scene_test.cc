@@ -1,9 +1,11 @@
 // Walls that turn, tap and are taken away, gravity that turns, spheres that come later.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "engine/bodies/wall_motion.h"
 #include "tests/engine/scenes.h"
+#include "tests/error_in.h"
 
 namespace talus::engine {
 namespace moving_scene_test {
@@ -57,8 +59,7 @@ TEST(TurningWall, ABallOnATurntableRunsOnACircleAtTwoSeventhsOfItsSpeed) {
 }
 
 // In a drum a ball without rolling resistance stays at the bottom and spins with the wall:
-// r ω = R Ω. With it, the torque μ_r R* N that it resists with lifts it until the weight's lever
-// gives as much: sin φ = μ_r (R* = r of a wall), to first order in r/R.
+// r ω = R Ω.
 TEST(TurningWall, ABallInADrumSpinsWithItsWall) {
   const double r = 1e-3, big = 20e-3, turning = 3;
   Scene scene = testing::EmptySpace(Rough());
@@ -246,17 +247,52 @@ TEST(Add, ASphereThatComesLaterFallsFromThen) {
   EXPECT_NEAR(now.position.z, 1 - 0.2e-3 - kGravity / 2 * 1e-6, 1e-12);
   EXPECT_NEAR(now.velocity.z, -0.2 - kGravity * 1e-3, 1e-12);
   EXPECT_THROW(simulation.Add(one), base::ConfigError);  // its number is in use
-  std::vector<Particle> small = one;
-  small[0].id = 8;
-  small[0].radius = 1e-6;
-  EXPECT_THROW(simulation.Add(small), base::ConfigError);  // the step is too long for it
-  std::vector<Particle> fast = one;
-  fast[0].id = 9;
-  fast[0].velocity = {0, 0, -600};
-  EXPECT_THROW(simulation.Add(fast), base::ConfigError);  // and here, by 0.6 of the radius
-  fast[0].velocity = {};
-  fast[0].angular_velocity = {0, 2e6, 0};
-  EXPECT_THROW(simulation.Add(fast), base::ConfigError);
+}
+
+TEST(Add, AStepTooLongForASphereIsSaid) {
+  Scene scene = testing::EmptySpace(Rough());
+  scene.time_step = 1e-6;
+  Simulation simulation(scene);
+  const auto error_of = [&](const Particle& p) {
+    return ErrorIn([&] { simulation.Add({&p, 1}); });
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(error_of({.id = 8, .radius = 1e-6}), HasSubstr("0.4 Rayleigh times"));
+  EXPECT_THAT(error_of({.id = 9, .radius = 1e-3, .velocity = {0, 0, -600}}),  // 0.6 radii a step
+              HasSubstr("velocity"));
+  EXPECT_THAT(error_of({.id = 9, .radius = 1e-3, .angular_velocity = {0, 2e6, 0}}),
+              HasSubstr("angular_velocity"));
+  EXPECT_EQ(error_of({.id = 9, .radius = 1e-3}), "");
+}
+
+// Rolling resistance is of what turns against the other: a ball that a drum carries along as if it
+// were a part of it is not resisted. Five steps of a wall taken for standing would take 1e-3 of it.
+TEST(TurningWall, WhatTurnsWithItAsOneBodyIsNotResisted) {
+  const double r = 1e-3, big = 20e-3, turning = 30;
+  Material material = testing::Glass();
+  material.rolling_friction = 0.5;
+  for (const Rolling rolling : {Rolling::kEpsd, Rolling::kEpsd2}) {
+    Scene scene = testing::EmptySpace(material);
+    scene.models.rolling = rolling;
+    scene.particles = {{.radius = r,
+                        .position = {0, 0, -big + r - 1e-6},
+                        .velocity = {-turning * (big - r), 0, 0},
+                        .angular_velocity = {0, turning, 0}}};
+    scene.walls = {
+        {.name = "drum",
+         .shape =
+             OpenCylinder{.base = {0, -0.05, 0}, .axis = {0, 1, 0}, .radius = big, .length = 0.1},
+         .motion = {{.time = 0, .angular_velocity = {0, turning, 0}}}}};
+    Simulation simulation(scene);
+    simulation.Advance(5);
+    EXPECT_NEAR(simulation.Particles()[0].angular_velocity.y / turning, 1, 1e-4)
+        << base::NameOf(rolling);
+  }
+}
+
+TEST(Turned, AThirdOfATurnAboutTheDiagonalExchangesTheAxes) {
+  const double third = 2 * std::numbers::pi / 3 / std::sqrt(3.0);
+  EXPECT_LT(base::Norm(Turned({1, 2, 3}, {third, third, third}) - Vec3{3, 1, 2}), 1e-14);
 }
 
 TEST(MovingScene, ARestartGoesOnWithTheSameBits) {

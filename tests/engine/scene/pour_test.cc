@@ -56,6 +56,44 @@ TEST(Pour, RunsAsFastAsBeverlooSays) {
   EXPECT_DOUBLE_EQ(BeverlooRate(Plan(), 4), BeverlooRate(fine));
 }
 
+Simulation NothingYet() {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.gravity = {0, 0, -9.81};
+  scene.time_step = 1e-6;
+  return Simulation(scene);
+}
+
+TEST(Pour, AnotherSeedGivesOtherPlaces) {
+  const auto first = [](std::uint64_t seed) {
+    PourPlan plan = Plan();
+    plan.seed = seed;
+    Simulation simulation = NothingYet();
+    PourState state;
+    Pour(plan).Advance(simulation, state);
+    return simulation.Particles().at(0).position;
+  };
+  EXPECT_EQ(first(3), first(3));
+  EXPECT_NE(first(3), first(4));
+}
+
+TEST(Pour, AMouthThatRisesDoesSoWithTheMassThatHasCome) {
+  PourPlan plan = Plan();
+  plan.rise = 1000;  // [m/kg]
+  Simulation simulation = NothingYet();
+  PourState state;
+  const Pour pour(plan);
+  pour.Advance(simulation, state);
+  const std::int64_t before = state.num_poured;
+  simulation.Advance(std::llround(std::ceil((pour.NextTime(state) - simulation.time()) / 1e-6)));
+  pour.Advance(simulation, state);
+  ASSERT_GT(state.num_poured, before);
+  const double mass = static_cast<double>(before) * SphereMass({.density = 2500}, 0.5e-3);
+  for (const Particle& p : simulation.Particles()) {
+    if (p.id < before) continue;
+    EXPECT_GE(p.position.z, 0.1 + plan.rise * mass - 1e-12);
+  }
+}
+
 // After the first batch, mass comes at the rate, and nothing that comes touches anything.
 TEST(Pour, GrainsComeAtTheRateAndTouchNothing) {
   const Pour pour(Plan());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/laws/pressed_bed.h"
 #include "tests/engine/scenes.h"
 #include "tests/error_in.h"
 
@@ -115,6 +116,17 @@ TEST(Press, WhatCannotBeIsNamed) {
   bad.force = std::nan("");
   EXPECT_THAT(error_of(bad), ::testing::HasSubstr("force"));
   EXPECT_EQ(error_of(good), "");
+}
+
+// Rumpf's σ = φ n F / (π d²) with 0.58 of solid, 4.5 contacts a grain and the pull-off force of
+// DMT, F = 2π γ R* with γ* = 2 γ.
+TEST(PressedBed, AdhesionPressesAsRumpfSays) {
+  Material material = testing::Glass();
+  material.surface_energy = 1e-3;
+  const double r = 1e-4, pull_off = 2 * std::numbers::pi * 2e-3 * r / 2;
+  const PairConstants pair = MakePairConstants(material, material, {.adhesion = Adhesion::kDmt});
+  EXPECT_NEAR(AdhesiveStress(pair, r) / (0.58 * 4.5 * pull_off / (std::numbers::pi * 4 * r * r)), 1,
+              1e-12);
 }
 
 }  // namespace press_test

@@ -241,5 +241,20 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   EXPECT_THROW(ReadSizeFile(missing), base::ConfigError);
 }
 
+// Thirty grains of a wide distribution hold none of its coarse end.
+TEST(LostSizes, AreSaidWhereTheDrawnD90IsBelowTheCurvesByATwentieth) {
+  const SizeCurve curve({.kind = SizeKind::kLogNormal, .median = 1e-3, .sigma = 0.7});
+  int num_said = 0;
+  for (const double count : {30.0, 100.0, 1000.0, 1e5}) {
+    const double volume = count * curve.mean_volume();
+    const double drawn = SampleVolumeQuantile(DrawDiameters(curve, volume), 0.9);
+    const bool is_said = !LostSizes(curve, volume).empty();
+    EXPECT_EQ(is_said, drawn < 0.95 * curve.VolumeQuantile(0.9)) << count;
+    num_said += is_said ? 1 : 0;
+  }
+  EXPECT_GT(num_said, 0);
+  EXPECT_LT(num_said, 4);
+}
+
 }  // namespace size_distribution_test
 }  // namespace talus::engine
