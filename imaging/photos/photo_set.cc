@@ -145,16 +145,25 @@ std::map<std::string, Views, ByNumber> Group(const std::vector<std::filesystem::
   return runs;
 }
 
+std::string FewerViewsText(const std::string& run, std::size_t has, std::size_t others) {
+  return "run " + run + " has " + base::Counted(static_cast<long long>(has), "view") +
+         ", others have " + std::to_string(others);
+}
+
 PhotoSet SetOf(const std::map<std::string, Views, ByNumber>& runs, const std::string& pattern) {
   PhotoSet set{.runs = {}, .missing = {}, .pattern = pattern};
   const std::set<std::string, ByNumber> expected = ExpectedViews(runs);
+  const bool has_names = PhotoPattern(pattern).has_view();
   for (const auto& [run, views] : runs) {
+    if (!has_names && views.size() < expected.size()) {
+      set.missing.push_back(FewerViewsText(run, views.size(), expected.size()));
+    }
     PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run, .views = {}});
     for (const std::string& view : expected) {
       const auto found = views.find(view);
       if (found != views.end()) {
         files.views.push_back({.view = view, .path = found->second});
-      } else {
+      } else if (has_names) {
         set.missing.push_back("run " + run + " has no view " + view + " (pattern \"" + pattern +
                               "\")");
       }
@@ -172,9 +181,7 @@ PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs, const std::string& patte
     PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run.name, .views = {}});
     for (const auto& path : run.photos) files.views.push_back({.view = {}, .path = path});
     if (run.photos.size() == most) continue;
-    set.missing.push_back("run " + run.name + " has " +
-                          base::Counted(static_cast<long long>(run.photos.size()), "view") +
-                          ", others have " + std::to_string(most));
+    set.missing.push_back(FewerViewsText(run.name, run.photos.size(), most));
   }
   return set;
 }

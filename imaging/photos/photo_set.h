@@ -22,7 +22,8 @@ struct PhotoFiles {
 struct PhotoSet {
   std::vector<PhotoFiles> runs;      // in the order of their names, numbers by value
   std::vector<std::string> missing;  // "run 03 has no view 07", one a view that other runs have or
-                                     // that a numbering without gaps would have
+                                     // that a numbering without gaps would have; of views without
+                                     // names "run 03 has 4 views, others have 6"
   std::string pattern;               // that the names were read by; empty for runs one by one
 };
 

@@ -53,6 +53,14 @@ TEST(MassStudy, ScatterAndDaysDecideRepeatability) {
   EXPECT_THAT(study.rows[2].remark, HasSubstr("one run"));
 }
 
+// "In every run": one of four that covers 90 % of the plate is enough.
+TEST(MassStudy, TheNarrowestRunDecidesWhetherAHeapIsFormed) {
+  std::vector<MassRun> runs = Runs(1e-3, {18, 18.1, 18, 18.1}, 1);
+  EXPECT_TRUE(StudyMass(runs).chosen);
+  runs[2].base_share = 0.9;
+  EXPECT_FALSE(StudyMass(runs).chosen);
+}
+
 TEST(MassStudy, OneMassInTwoUnitsIsOneRow) {
   ASSERT_NE(1.1 * 1e-3, 1100 * 1e-6);  // in the last bit
   const MassStudy study =

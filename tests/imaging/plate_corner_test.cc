@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "imaging/photos/plate/plate_edges.h"
 #include "tests/imaging/photo_folder.h"
@@ -70,6 +72,24 @@ TEST(PlateCorner, IsVagueUnderPowderThatHangsOverTheRim) {
                                           })));
   EXPECT_FALSE(edges.top_left.sharp);
   EXPECT_FALSE(edges.top_right.sharp);
+}
+
+// Light passes below the powder in a slit of a quarter of a pixel. Powder that is 4 to 20 grey
+// levels brighter than the plate was taken for light as well: a seam 3 px and more above the top.
+TEST(PlateSeam, IsAtThePlatesTopOrNowhereHoweverBrightThePowder) {
+  const Scene scene = SmallScene();
+  for (const double powder : {1.0, 0.98, 0.95, 0.9}) {
+    std::vector<double> cover = Cover(scene, [](double along, double up) {
+      return up > (std::abs(along) < 60 ? 0.25 : 0) && up < 0.6 * (152 - std::abs(along));
+    });
+    const auto above = static_cast<std::ptrdiff_t>(scene.width * scene.baseline);
+    for (double& share : std::span(cover.begin(), cover.begin() + above)) share *= powder;
+    const PlateEdges edges = EdgesOf(Expose(scene, cover));
+    EXPECT_TRUE(edges.seam || powder < 1);
+    if (edges.seam) {
+      EXPECT_NEAR(Below(scene, *edges.seam), 0, 0.5) << powder;
+    }
+  }
 }
 
 }  // namespace plate_corner_test

@@ -148,6 +148,19 @@ TEST(GrainsOnPlate, KeepsWhatHangsTogetherDownToThePlate) {
   EXPECT_EQ(heap[3].position, spheres[7].position);
 }
 
+TEST(GrainsOnPlate, AGapOfAHundredthOfARadiusIsAContact) {
+  constexpr double kRadius = 1e-4;
+  const auto count = [&](double gap) {
+    return GrainsOnPlate(
+               std::vector<Sphere>{{.position = {0, 0, kRadius}, .radius = kRadius},
+                                   {.position = {0, 0, (3 + gap) * kRadius}, .radius = kRadius}},
+               8e-3)
+        .size();
+  };
+  EXPECT_EQ(count(0.008), 2u);
+  EXPECT_EQ(count(0.012), 1u);
+}
+
 TEST(GrainsOnPlate, EmptyHeapIsEmpty) { EXPECT_TRUE(GrainsOnPlate({}, 8e-3).empty()); }
 
 }  // namespace projection_test

@@ -312,6 +312,24 @@ TEST(LooseGrain, BesideTheHeapChangesNoAngle) {
   }
 }
 
+// A fifth of the views have powder that hangs over the left slope: a side of which a tenth and more
+// do has no angle.
+TEST(Repose, AnOverhangInATenthOfTheViewsLeavesItsSideWithoutAngle) {
+  GrayImage heap = Silhouette([](double x) { return 80 - std::abs(x); });
+  constexpr std::uint8_t kAFifth = 204;
+  const Frame frame = SmallFrame();
+  for (int up = 40; up < 60; ++up) {
+    for (int left = 1; left < 110; ++left) {
+      std::uint8_t& pixel = heap.at(static_cast<int>(frame.center_x) - left,
+                                    static_cast<int>(frame.baseline) - 1 - up);
+      pixel = std::min(pixel, kAFifth);
+    }
+  }
+  const ReposeAngles angles = MeasureRepose(heap, frame);
+  EXPECT_FALSE(angles[1].left.defined());
+  EXPECT_TRUE(angles[1].right.defined());
+}
+
 // Three views of 29°, 30°, 31°: their scatter is 1°, its standard error 1/√3.
 TEST(StandardError, IsTheScatterOfThePartsOverRootN) {
   std::vector<GrayImage> views;

@@ -49,15 +49,19 @@ std::vector<EdgePoint> FindLower(const TiltedView& tilted, const StraightSides& 
 struct Gap {
   double light = 0;   // ∫ brightness dv, 1 = the background [px]: its thickness
   double moment = 0;  // ∫ brightness v dv [px²], v up from the middle that was guessed
+  double step = 0;    // by which the grains are brighter than the plate [-]
 };
 
 // Nothing where the light is no narrow line in the dark.
 std::optional<Gap> FindGap(const TiltedView& tilted, const EdgePoint& middle, double along) {
   const auto at = [&](double up) { return tilted.At(tilted.Point(middle, along, up)); };
-  const double dark = (at(-7) + at(-6) + at(6) + at(7)) / 4;
+  // Grains need not be as dark as the plate.
+  const double plate = (at(-7) + at(-6)) / 2;
+  const double grains = (at(6) + at(7)) / 2;
   constexpr double kStep = 0.5;
-  Gap gap;
+  Gap gap{.step = grains - plate};
   for (double up = -5; up <= 5; up += kStep) {
+    const double dark = up < 0 ? plate : up > 0 ? grains : (plate + grains) / 2;
     const double light = (at(up) - dark) / (1 - dark) * kStep;
     gap.light += light;
     gap.moment += light * up;
@@ -72,7 +76,8 @@ std::optional<Gap> FindGap(const TiltedView& tilted, const EdgePoint& middle, do
 std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& middle, double width) {
   constexpr double kGroup = 5;          // columns
   constexpr double kLeastLight = 0.03;  // mean thickness that is told from noise [px]
-  double groups = 0, light = 0, moment = 0, squares = 0;
+  constexpr double kFarthest = 3;       // from the guess, which knows the corners [px]
+  double groups = 0, light = 0, moment = 0, squares = 0, step = 0;
   for (double along = -0.45 * width; along <= 0.45 * width; along += kGroup) {
     Gap group;
     int columns = 0;
@@ -82,15 +87,20 @@ std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& mid
       ++columns;
       group.light += gap->light;
       group.moment += gap->moment;
+      group.step += gap->step;
     }
     if (columns < kGroup) continue;
     groups += 1;
     light += group.light / kGroup;
     moment += group.moment / kGroup;
+    step += group.step / kGroup;
     squares += group.light * group.light / kGroup / kGroup;
   }
   if (groups < 5 || light < kLeastLight * groups) return std::nullopt;
-  return tilted.Point(middle, 0, moment / light - squares / 2 / light);
+  // A step that is not where it was guessed counts as light, too.
+  if (light < 2 * kFarthest * std::abs(step)) return std::nullopt;
+  const double up = moment / light - squares / 2 / light;
+  return std::abs(up) < kFarthest ? std::optional(tilted.Point(middle, 0, up)) : std::nullopt;
 }
 
 const PlateSides& RequirePlate(const std::optional<PlateSides>& sides, const std::string& name) {
