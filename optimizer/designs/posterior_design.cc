@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "optimizer/designs/points_within.h"
+#include "optimizer/space/point_rows.h"
 #include "optimizer/space/prior_spread.h"
 
 namespace talus::optimizer {
@@ -51,6 +53,11 @@ Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed) {
     Points more = Sobol(kMostTried, domain.num_parameters, seed);
     FollowPrior(domain, more);
     AppendThoseWithin(domain, more, size, points);
+    if (static_cast<int>(points.size()) < size) {
+      Points rest = SobolInside(domain, size, seed);
+      std::erase_if(rest, [&](const Eigen::VectorXd& point) { return IsAmong(point, points); });
+      AppendThoseWithin(domain, rest, size, points);
+    }
   }
   return points;
 }

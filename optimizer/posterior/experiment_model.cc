@@ -295,7 +295,7 @@ std::vector<double> ExperimentModel::ScalarNoise(const Eigen::VectorXd& x) const
 
 Eigen::VectorXd ExperimentModel::OutputsOf(std::span<const float> field,
                                            const std::vector<double>& scalars) const {
-  Eigen::VectorXd outputs(num_outputs());
+  Eigen::VectorXd outputs = Eigen::VectorXd::Constant(num_outputs(), base::kNotKnown);
   const Eigen::Index num_modes = outputs_.num_modes();
   if (has_image()) {
     outputs.head(num_modes) = outputs_.modes().Coefficients(setup_.code->Encode(field));

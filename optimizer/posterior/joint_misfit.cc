@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "optimizer/answer.h"
 #include "optimizer/posterior/residual_correlation.h"
 #include "optimizer/posterior/robust_misfit.h"
 
@@ -12,7 +13,6 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kMostTemper = 6;
-constexpr double kRegion = 0.9;  // probability of the regions of the outputs
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
     const Eigen::VectorXd z = stacked(i, there);
     const Eigen::MatrixXd shared = correlation_(there, there);
     double& expected = quantile[z.size()];
-    if (expected == 0) expected = RobustQuantile(z.size(), kRegion);
+    if (expected == 0) expected = RobustQuantile(z.size(), kRegionLevel);
     misfits.push_back(shared.llt().matrixL().solve(z).squaredNorm() / expected);
   }
   coverage_.count = static_cast<int>(misfits.size());
@@ -51,7 +51,7 @@ void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
   std::sort(sorted.begin(), sorted.end());
   const auto at = std::min(
       sorted.size() - 1,
-      static_cast<std::size_t>(std::ceil(kRegion * static_cast<double>(sorted.size()))) - 1);
+      static_cast<std::size_t>(std::ceil(kRegionLevel * static_cast<double>(sorted.size()))) - 1);
   temper_ = std::clamp(sorted[at] * (1 + 1e-12), 1.0, kMostTemper);
   coverage_.raw = covered(1);
   coverage_.tempered = covered(temper_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/answer.h"
 #include "optimizer/space/ascending.h"
 
 namespace talus::optimizer {

@@ -19,14 +19,23 @@ Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample) {
   Eigen::MatrixXd ranks(sample.rows(), sample.cols());
   for (Eigen::Index k = 0; k < sample.cols(); ++k) {
     const std::vector<Eigen::Index> order = Ascending(sample.col(k));
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-      ranks(order[rank], k) = static_cast<double>(rank);
+    for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+      const auto is_equal = [&](Eigen::Index row) {
+        return sample(row, k) == sample(order[first], k);
+      };
+      while (last < order.size() && is_equal(order[last])) ++last;
+      const double shared = 0.5 * static_cast<double>(first + last - 1);  // by equal values
+      for (std::size_t i = first; i < last; ++i) ranks(order[i], k) = shared;
     }
   }
   const Eigen::MatrixXd centred = ranks.rowwise() - ranks.colwise().mean();
   const Eigen::MatrixXd covariance = centred.transpose() * centred;
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
+  // One value for all goes with nothing.
+  const Eigen::VectorXd scale = covariance.diagonal().unaryExpr(
+      [](double variance) { return variance > 0 ? 1 / std::sqrt(variance) : 0; });
+  Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  correlation.diagonal().setOnes();
+  return correlation;
 }
 
 double Narrowing(const Eigen::MatrixXd& draws, Eigen::Index known, Eigen::Index other) {

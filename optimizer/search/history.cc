@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "optimizer/designs/points_within.h"
 #include "surrogate/same_point.h"
 
 namespace talus::optimizer {
@@ -9,7 +10,8 @@ namespace {
 
 Eigen::VectorXd Somewhere(const Domain& domain) {
   if (!domain.guesses.empty()) return domain.guesses.front();
-  return Eigen::VectorXd::Constant(domain.num_parameters, 0.5);
+  const Eigen::VectorXd middle = Eigen::VectorXd::Constant(domain.num_parameters, 0.5);
+  return domain.Snap(domain.Contains(middle) ? middle : SobolPoint(domain, 0, 0));
 }
 
 }  // namespace
@@ -46,10 +48,10 @@ void Repeats::CountLast(const History& history) {
 }
 
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,
-                    const std::string& how) {
+                    const std::string& seen) {
   Answer answer;
   answer.correlation = Eigen::MatrixXd::Identity(domain.num_parameters, domain.num_parameters);
-  answer.model = "no model: the best observation of " + how;
+  answer.model = "no model: the best observation of " + seen;
   const Observation* best = nullptr;
   for (const Observation& observation : told) {
     if (!observation.failed && (best == nullptr || observation.value < best->value)) {

@@ -30,9 +30,9 @@ struct Repeats {
   void CountLast(const History& history);
 };
 
-// The answer of a strategy that has no model: the best evaluation, taken at its word. `how` names
-// the strategy in Answer::model.
+// The answer of a strategy that has no model: the best evaluation, taken at its word. `seen` says
+// in Answer::model what it is the best of.
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,
-                    const std::string& how);
+                    const std::string& seen);
 
 }  // namespace talus::optimizer

@@ -143,7 +143,7 @@ std::optional<StopReason> ScalarSearch::WhyStop(const SearchRecord& record) {
 
 Answer ScalarSearch::Recommend(const SearchRecord& record) {
   if (record.history().size() < 2) {
-    return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
+    return BestObserved(record.told(), record.domain(), "those so far, too few for one");
   }
   const ScalarFit& searched = Fit(record);
   const ScalarFit fit = fitter_.ServesBoth()

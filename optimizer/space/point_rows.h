@@ -20,7 +20,7 @@ Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points);
 // One matrix above the other.
 Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom);
 
-// Whether one of `points` is the same point (domain.h).
+// Whether one of `points` is the same point (surrogate::SamePoint).
 bool IsAmong(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> points);
 
 }  // namespace talus::optimizer

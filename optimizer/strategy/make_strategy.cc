@@ -139,10 +139,18 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
     case StrategyKind::kSobol:
       return std::make_unique<DesignStrategy>(domain, SobolInside(domain, options.num_points, seed),
                                               "the Sobol sequence");
-    case StrategyKind::kGrid:
+    case StrategyKind::kGrid: {
+      const std::vector<int> levels = LevelsFor(options, domain.num_parameters);
+      problems.Require(
+          std::ranges::any_of(FullFactorial(levels),
+                              [&](const auto& point) { return domain.Contains(point); }),
+          "levels",
+          "make a grid of which no point meets the constraints: give more levels, or "
+          "take another kind of strategy");
+      problems.ThrowIfAny();
       return std::make_unique<GridStrategy>(
-          domain, GridStrategy::Sweep{.levels = LevelsFor(options, domain.num_parameters),
-                                      .refine_best = options.refine_best});
+          domain, GridStrategy::Sweep{.levels = levels, .refine_best = options.refine_best});
+    }
     default:
       return std::make_unique<ReplayedSearch>(domain, SearchOf(options.kind), seed);
   }

@@ -89,7 +89,7 @@ Proposal RbfStrategy::ByModel(const Points& asked) {
 }
 
 Answer RbfStrategy::Recommend() {
-  Answer answer = BestObserved(record().told(), record().domain(), "radial basis functions");
+  Answer answer = BestObserved(record().told(), record().domain(), "those so far, too few for one");
   if (record().history().size() < 2) return answer;
   const surrogate::RadialBasis& basis = Fit();
   answer.model = "radial basis functions of " + std::to_string(record().history().size()) +

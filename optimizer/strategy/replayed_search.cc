@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "optimizer/designs/points_within.h"
 #include "optimizer/search/history.h"
 #include "surrogate/same_point.h"
 
@@ -15,11 +16,13 @@ constexpr int kMaxRuns = 1000;            // of a local search, each from anothe
 constexpr int kMaxEvaluations = 1000000;  // the budget is the caller's business
 constexpr double kFirstStep = 0.15;       // of a local search, in the unit cube
 constexpr double kNoValue = 1e100;        // of what fails before anything has a value
+constexpr int kMostOutside = 20000;       // points in one replay that constraints forbid
 constexpr double kSmallestStep = 1e-4;    // a local search that moves less has converged
 
 struct Wanted {  // thrown through the search to end it
   Eigen::VectorXd point;
 };
+struct Lost {};  // the same, of a search that hardly finds the domain
 
 // Answers the calls of one replay.
 class Memory {
@@ -38,7 +41,10 @@ class Memory {
 
  private:
   double Look(const Eigen::VectorXd& point) {
-    if (!domain_.Contains(point)) return Worst();
+    if (!domain_.Contains(point)) {
+      if (++num_outside_ > kMostOutside) throw Lost{};
+      return Worst();
+    }
     for (const Observation& observation : told_) {
       if (surrogate::SamePoint(observation.point, point)) {
         if (observation.failed) return Worst();
@@ -72,6 +78,7 @@ class Memory {
   std::span<const Eigen::VectorXd> pending_;
   const Domain& domain_;
   std::vector<std::pair<Eigen::VectorXd, double>> seen_;
+  int num_outside_ = 0;
   std::optional<double> worst_;  // of the values seen
   std::optional<Eigen::VectorXd> wanted_;
 };
@@ -89,9 +96,9 @@ Eigen::VectorXd ReplayedSearch::Start(int run) const {
   Eigen::VectorXd start(domain_.num_parameters);
   for (int attempt = 0; attempt < kMaxRuns; ++attempt) {
     for (double& x : start) x = random.Uniform();
-    if (domain_.Contains(start)) break;
+    if (domain_.Contains(start)) return start;
   }
-  return start;
+  return SobolPoint(domain_, run, seed_);
 }
 
 std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
@@ -101,6 +108,7 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
     // A search may begin elsewhere: BOBYQA shifts a start near a bound, DIRECT has none.
     for (const Eigen::VectorXd& guess : domain_.guesses) memory.Answer(guess);
     for (int run = 0; run < (options_.local ? kMaxRuns : 1); ++run) {
+      if (domain_.feasible) memory.Answer(Start(run));  // a search may never come near
       const surrogate::SearchTask task{
           .algorithm = options_.algorithm,
           .lower = Eigen::VectorXd::Zero(domain_.num_parameters),
@@ -115,6 +123,7 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
     }
   } catch (const Wanted& wanted) {
     return wanted.point;
+  } catch (const Lost&) {  // what was told is all that it finds
   }
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ class ReplayedSearch : public Strategy {
 
   // A batch goes on as if each pending point had the value of its nearest neighbour.
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
-  void Tell(const Observation& observation) override { told_.push_back(observation); }
+  void Tell(const Observation& observation) override { told_.push_back(WithoutImage(observation)); }
   std::optional<StopReason> WhyStop() override;
   Answer Recommend() override;
 

@@ -73,5 +73,17 @@ TEST(RankCorrelation, IsOneAlongAnyRisingCurve) {
   EXPECT_NEAR(correlation(1, 1), 1, 1e-12);
 }
 
+// Draws with replacement repeat: which of equal ones comes first says nothing.
+TEST(RankCorrelation, OfValuesThatRepeatDoesNotDependOnTheirOrder) {
+  Eigen::MatrixXd sample(1000, 3);
+  for (Eigen::Index i = 0; i < sample.rows(); ++i) {
+    sample.row(i) << static_cast<double>(i % 2), -static_cast<double>(i % 2), 0.5;
+  }
+  const Eigen::MatrixXd correlation = RankCorrelation(sample);
+  EXPECT_NEAR(correlation(0, 1), -1, 1e-12);
+  EXPECT_EQ(correlation(0, 2), 0);  // one value for all goes with nothing
+  EXPECT_EQ(correlation(2, 2), 1);
+}
+
 }  // namespace credible_ranges_test
 }  // namespace talus::optimizer

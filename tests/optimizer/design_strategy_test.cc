@@ -119,5 +119,14 @@ TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
   EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
 }
 
+TEST(MakeStrategy, RefusesAGridThatConstraintsLeaveWithoutAPoint) {
+  Domain domain{.num_parameters = 2};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() > 0.9 && u.sum() < 0.95; };
+  EXPECT_THAT(ErrorIn([&] {
+                MakeStrategy({.kind = StrategyKind::kGrid, .levels = {2, 2}}, domain, nullptr, 1);
+              }),
+              HasSubstr("no point meets the constraints"));
+}
+
 }  // namespace design_strategy_test
 }  // namespace talus::optimizer

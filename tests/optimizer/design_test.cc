@@ -161,6 +161,16 @@ TEST(PosteriorDesign, IsCompleteWithinNarrowConstraints) {
   EXPECT_GT(SmallestDistance(points), 0);
 }
 
+// A thousandth of the cube holds four of the first 4096 points.
+TEST(PosteriorDesign, IsCompleteWhereConstraintsLeaveAThousandth) {
+  Domain domain{.num_parameters = 3};
+  domain.feasible = [](const Eigen::VectorXd& u) { return std::abs(u.sum() - 1) < 1e-3; };
+  const int size = PosteriorDesignSize(domain);
+  const Points points = PosteriorDesign(domain, size, 3);
+  ASSERT_EQ(static_cast<int>(points.size()), size);
+  EXPECT_GT(SmallestDistance(points), 0);
+}
+
 // One of nine points of a hypercube lay within, and a model was made of that and its repeat.
 TEST(PointsWithin, AreAsManyWithinConstraintsAsWithout) {
   Domain domain{.num_parameters = 3};

@@ -91,5 +91,14 @@ TEST(JointMisfit, ADozenSharedEvaluationsMakeNoSmallResidualImpossible) {
   EXPECT_LT(worst, 4);
 }
 
+// Leave-one-out residuals twice as large as the surrogate says: the misfit is divided until nine
+// tenths of them lie in the regions of 90 %.
+TEST(JointMisfit, ResidualsBeyondTheirErrorsAreTempered) {
+  const JointMisfit misfit(2 * Normals(400, 2, 5), {0, 1});
+  EXPECT_GT(misfit.temper(), 2);
+  EXPECT_LT(misfit.coverage().raw, 0.75);
+  EXPECT_NEAR(misfit.coverage().tempered, 0.9, 0.01);
+}
+
 }  // namespace joint_misfit_test
 }  // namespace talus::optimizer

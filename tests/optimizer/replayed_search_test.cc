@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "optimizer/search/history.h"
 #include "optimizer/strategy/make_strategy.h"
 #include "surrogate/same_point.h"
 
@@ -138,6 +139,31 @@ TEST(ReplayedSearch, NeverAsksForAForbiddenPoint) {
       strategy->Tell({.point = point, .value = Bowl(point)});
     }
   }
+}
+
+// In a corner that no search comes near by itself: each begins with a point of it, asks for none
+// outside, and ends or goes on at once. DIRECT-L went on for minutes without asking for anything.
+TEST(ReplayedSearch, FindsADomainThatIsSmall) {
+  Domain domain{.num_parameters = 3};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() <= 0.1; };
+  for (const StrategyKind kind :
+       {StrategyKind::kDirectL, StrategyKind::kBobyqa, StrategyKind::kNelderMead}) {
+    const auto strategy = MakeStrategy({.kind = kind}, domain, nullptr, 7);
+    for (int i = 0; i < 5; ++i) {
+      const std::vector<Proposal> asked = strategy->Ask(1, {});
+      ASSERT_TRUE(i > 0 || asked.size() == 1);
+      if (asked.empty()) break;
+      ASSERT_TRUE(domain.Contains(asked[0].point));
+      strategy->Tell({.point = asked[0].point, .value = Bowl(asked[0].point)});
+    }
+    EXPECT_TRUE(domain.Contains(strategy->Recommend().point));
+  }
+}
+
+TEST(BestObserved, WithoutAnyItIsAPointOfTheDomain) {
+  Domain domain{.num_parameters = 2};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() <= 0.02; };
+  EXPECT_TRUE(domain.Contains(BestObserved({}, domain, "none").point));
 }
 
 }  // namespace replayed_search_test
