@@ -134,7 +134,8 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
 }
 
 // What follows an answer by itself: where it fails the campaign has its answer all the same.
-void Afterwards(const std::string& verb, const std::function<void()>& run) {
+void Afterwards(const std::string& verb, const std::filesystem::path& folder,
+                const std::function<void()>& run) {
   const auto warn = [&](const std::string& error) {
     std::cerr << "warning: `talus " << verb << "`, which follows the answer, failed: " << error
               << std::endl;
@@ -142,7 +143,10 @@ void Afterwards(const std::string& verb, const std::function<void()>& run) {
   try {
     run();
   } catch (const base::Interrupted&) {
-    throw;
+    throw base::Interrupted("interrupted after the answer was written; `talus " + verb + " " +
+                            base::ShellWord(folder.string()) +
+                            (verb == "next" ? " --simulate" : "") +
+                            "` goes on with what follows it");
   } catch (const base::Error& error) {
     warn(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
@@ -181,10 +185,10 @@ void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& op
   PrintAnswer(*ended.answer, folder, tell);
   // First, since a further test that depends on something unknown is worth less.
   if (ended.spec.budget.sensitivity_share > 0) {
-    Afterwards("sensitivity",
+    Afterwards("sensitivity", folder,
                [&] { FindSensitivityWithin(ended.spec.budget.sensitivity_share, folder, tell); });
   }
-  if (IsWorthAdvice(ended)) Afterwards("next", [&] { PrintAdvice(ended, folder, tell); });
+  if (IsWorthAdvice(ended)) Afterwards("next", folder, [&] { PrintAdvice(ended, folder, tell); });
 }
 
 }  // namespace talus::app

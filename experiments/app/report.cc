@@ -36,8 +36,8 @@ struct ReportArguments {
 std::string StateOf(const analysis::Evidence& evidence) {
   std::string state(base::NameOf(evidence.state));
   if (evidence.ended_silently) state += campaign::kEndedSilently;
-  for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
-    for (const analysis::TrialEvidence& trial : *trials) state += base::NameOf(trial.state).front();
+  for (const analysis::TrialEvidence* trial : evidence.AllTrials()) {
+    state += base::NameOf(trial->state).front();
   }
   return state;
 }

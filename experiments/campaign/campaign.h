@@ -1,7 +1,7 @@
 // The calibration loop: ask → write case → run → measure → journal → tell.
 //
-// The journal is the state. Whatever ends the process, Resume goes on from it; what was running is
-// run again, or collected where it has ended meanwhile.
+// The journal is the state. Whatever ends the process, what OpenCampaign gives goes on from it;
+// what was running is run again, or collected where it has ended meanwhile.
 #pragma once
 
 #include <chrono>

@@ -36,6 +36,16 @@ void Start(const runners::Job& job, runners::Runner& runner) {
   if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
 }
 
+// What a case took whose folder holds the mark of a failure [s]; nothing of others.
+std::optional<double> TimeOfFailure(const fs::path& folder) {
+  const fs::path file = folder / rigs::kFailedFile;
+  if (!fs::exists(file)) return std::nullopt;
+  const std::string text = base::ReadFile(file);
+  double seconds = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
+}
+
 bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
   return TimeOfFailure(run.folder) && engine.IsPrepared(run.rig_case, run.folder);
 }
@@ -91,13 +101,18 @@ void StopIfSetUpFailed(const runners::FinishedJob& job, const fs::path& folder,
 
 }  // namespace
 
-std::optional<double> TimeOfFailure(const fs::path& folder) {
-  const fs::path file = folder / rigs::kFailedFile;
-  if (!fs::exists(file)) return std::nullopt;
-  const std::string text = base::ReadFile(file);
-  double seconds = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return seconds;
+CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine) {
+  if (!engine.IsComplete(run.folder)) {
+    const std::optional<double> failed = TimeOfFailure(run.folder);
+    return {.has_ended = failed.has_value(), .core_time = failed.value_or(0)};
+  }
+  CaseOutcome outcome{.has_ended = true};
+  try {
+    outcome.output = engine.Collect(run.rig_case, run.folder);
+    outcome.core_time = outcome.output->cpu_time;
+  } catch (const base::Error&) {  // what it left says nothing
+  }
+  return outcome;
 }
 
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts) {

@@ -10,6 +10,7 @@
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/rigs/case/case.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::campaign {
 
@@ -26,8 +27,13 @@ struct CaseRuns {
   std::function<void(std::size_t)> has_ended = [](std::size_t) {};
 };
 
-// What a case took whose folder holds the mark of a failure [s]; nothing of others.
-std::optional<double> TimeOfFailure(const std::filesystem::path& folder);
+// What has become of a case.
+struct CaseOutcome {
+  bool has_ended = false;                       // well or not
+  double core_time = 0;                         // of one that has [s]
+  std::optional<trials::TrialOutput> output{};  // of one that has ended well
+};
+CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine);
 
 // False when the user ended it; what has ended is kept.
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts);

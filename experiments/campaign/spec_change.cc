@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/add_parameter.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/mended_engine.h"
@@ -15,8 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMoved = "moved";  // an event: only where its files lie has changed
-constexpr int kOfAddedParameter = 16;    // simulations of each experiment, where nobody says
+constexpr int kOfAddedParameter = 16;  // simulations of each experiment, where nobody says
 
 // Templates that are not where they were, as after the whole project has been moved: they are
 // looked for beside the spec that is named, or beside the campaign's folder, by the path that the
@@ -31,7 +31,7 @@ void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root
       (beside / written.at("engine").at("templates").get<std::string>()).lexically_normal();
   if (!fs::is_directory(moved)) return;
   templates = moved;
-  change.event = kMoved;
+  change.event = "moved";
   change.words = "its templates lie in " + moved.string() + " now";
 }
 
@@ -77,7 +77,7 @@ void KeepDrumFills(const nlohmann::json& written, const CampaignSpec& begun, Cam
 
 // No trial has succeeded with the one before.
 void NoteMendedEngine(SpecChange& change) {
-  change.engine_is_new = true;
+  change.engine_is_new = change.asks_more = true;
   change.event = "engine";
   change.words += (change.words.empty() ? "" : ", ") +
                   std::string("its engine has changed, with which no trial had succeeded");
@@ -89,7 +89,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
                           const ResumeOptions& options) {
   const bool named = !options.spec.empty();
   const fs::path path = named ? options.spec : fs::path(record.spec_path);
-  SpecChange change{.spec = {}, .path = {}, .text = record.spec_text, .event = {}, .words = {}};
+  SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
   if (named) change.path = fs::absolute(path).lexically_normal().string();
   if (named || fs::exists(path)) change.text = base::ReadFile(path);
   if (change.text == record.spec_text) {
@@ -115,12 +115,17 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   if (!forbidden.empty()) {
     std::string message = path.string() +
                           ": has changed since the campaign began, in what its trials depend on; "
-                          "undo this, or begin a new campaign:";
+                          "undo this, or begin a new campaign, which takes over what it can "
+                          "(`talus calibrate " +
+                          base::ShellWord(path.string()) + " --out NEW --reuse " +
+                          base::ShellWord(root.string()) + "`):";
     for (const base::JsonChange& what : forbidden) message += "\n  " + ChangeText(what);
     throw base::ConfigError(message);
   }
   change.event = "spec";
-  change.words = "changed in budget, workers or other things that may change";
+  change.asks_more = AsksMore(record.spec_json, SpecText(change.spec));
+  change.words = change.asks_more ? "changed in what the search is to find or may spend"
+                                  : "changed in nothing that the search depends on";
   if (engine_is_new) NoteMendedEngine(change);
   return change;
 }
@@ -159,7 +164,8 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   budget.min_simulations =
       std::min(BudgetOptions::kMostSimulations, num_told - num_search + from + num_more);
   if (ended || progress.elapsed_s >= budget.wall_clock.value_or(0)) budget.wall_clock.reset();
-  if (change.event.empty() || change.event == kMoved) change.event = "extend";
+  if (!change.asks_more) change.event = "extend";
+  change.asks_more = true;
   change.words +=
       (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
 }
@@ -169,13 +175,12 @@ void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
     const AddedParameter added = ParseAddedParameter(text);
     change.spec = SpecWith(change.spec, added);
     change.event = "search";
+    change.asks_more = true;
     change.words += (change.words.empty() ? "" : ", ") + added.name + " from now on";
   }
 }
 
 }  // namespace
-
-bool SpecChange::SearchesOn() const { return !event.empty() && event != kMoved; }
 
 SpecChange ChangeOf(journal::Journal& journal, const std::filesystem::path& root,
                     const ResumeOptions& options) {

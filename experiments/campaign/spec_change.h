@@ -27,10 +27,8 @@ struct SpecChange {
   std::string text;    // as the user wrote it
   std::string event;   // its kind; empty when nothing changes
   std::string words;
+  bool asks_more = false;      // a search that has ended goes on
   bool engine_is_new = false;  // a mended one, with which no trial has been run
-
-  // Whether a search that has ended is to go on: not where only its files lie elsewhere.
-  bool SearchesOn() const;
 };
 
 // Throws ConfigError that names what has changed in the spec where that is not allowed. Nothing is

@@ -86,7 +86,7 @@ journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
     try {
       return journal::Journal::Open(path);
     } catch (const base::ConfigError&) {
-      throw;  // another program's
+      throw;  // another program's, or held by one
     } catch (const base::Error& error) {
       damage = error.what();
     }
@@ -175,7 +175,7 @@ void WriteSpec(const CampaignFolder& folder, const SpecChange& change, journal::
   record.spec_text = change.text;
   record.spec_json = SpecText(change.spec);
   KeepCampaign(folder, record);
-  journal.SetSpec(record, change.SearchesOn());
+  journal.SetSpec(record, change.asks_more);
 }
 
 }  // namespace
@@ -271,8 +271,8 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
     WriteAddedParameters(folder, change.spec, change.text, journal);
   }
   if (!change.event.empty() || !change.path.empty()) WriteSpec(folder, change, journal);
-  if (options.objective && !change.SearchesOn()) journal.ReopenSearch();
-  if (options.objective || change.SearchesOn()) fs::remove(folder.progress());
+  if (options.objective && !change.asks_more) journal.ReopenSearch();
+  if (options.objective || change.asks_more) fs::remove(folder.progress());
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }

@@ -56,19 +56,12 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
                      const journal::CampaignRecord& campaign, const Reference& reference,
                      const Kind& kind) {
   if (!reference.has_image()) return "numbers only, so none is the best\n";
-  const journal::TrialRecord* best = nullptr;
-  double best_value = 0;
-  for (const journal::TrialRecord& trial : trials) {
-    if (!kind.Is(trial) || !trial.IsOfSearch()) continue;
-    const auto value = reference.Value(trial);
-    if (!value || (best && *value >= best_value)) continue;
-    best = &trial;
-    best_value = *value;
-  }
+  const auto* best = BestOfSearch(trials, reference, kind.experiment, kind.scale_factor);
   if (best == nullptr) return "none has succeeded yet\n";
-  return "best " + base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
-         (reference.info().is_angle ? " off" : "") + ", trial " + std::to_string(best->id) + ": " +
-         SetText(campaign.parameters, best->native) + "\n";
+  return "best " + base::ShortNumber(*reference.Value(*best)) + " " +
+         std::string(reference.info().unit) + (reference.info().is_angle ? " off" : "") +
+         ", trial " + std::to_string(best->id) + ": " + SetText(campaign.parameters, best->native) +
+         "\n";
 }
 
 std::string BestLines(const std::vector<journal::TrialRecord>& trials,

@@ -28,6 +28,11 @@ std::string ReasonOf(sqlite3* database) {
 [[noreturn]] void Fail(sqlite3* database, const std::string& doing) {
   const char* file = sqlite3_db_filename(database, "main");
   const std::string place = file != nullptr && *file != '\0' ? std::string(file) + ": " : "";
+  const int code = sqlite3_errcode(database);
+  if (code == SQLITE_BUSY || code == SQLITE_LOCKED || code == SQLITE_PROTOCOL) {
+    throw base::ConfigError(place + "another program holds it (" + ReasonOf(database) +
+                            "); close that, and the same command goes on");
+  }
   throw base::Error(place + doing + ": " + ReasonOf(database));
 }
 
@@ -196,6 +201,8 @@ std::string Database::Damage() {
     Statement check = Prepare("PRAGMA quick_check(1)");
     const std::string answer = check.Step() ? check.Text(0) : "no answer";
     return answer == "ok" ? "" : answer;
+  } catch (const base::ConfigError&) {
+    throw;  // held by another program, which is no damage
   } catch (const base::Error& error) {
     return error.what();
   }

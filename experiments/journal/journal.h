@@ -69,7 +69,8 @@ class Journal {
   // The trial's ANHP, bytes of a PNG; empty when it has none or its checksum does not match.
   std::string ProfilePng(std::int64_t trial);
 
-  // For people who look into the journal: "start", "resume", "retry"; 0 for the campaign itself.
+  // For people who look into the journal: "retry", "reuse", "spec", "stop"; 0 for the campaign
+  // itself.
   void AddEvent(std::string_view kind, std::int64_t trial, std::string_view text);
 
  private:

@@ -153,7 +153,9 @@ void Journal::AddExperiment(const ExperimentRecord& experiment, std::string_view
                             std::span<const TrialRecord> trials) {
   Transaction transaction(database_);
   InsertExperiment(database_, database_.Number("SELECT count(*) FROM experiments"), experiment);
-  database_.Prepare("UPDATE campaign SET spec_json = ?1").Bind(spec_json).Finish();
+  database_.Prepare("UPDATE campaign SET spec_json = ?1, result_json = ''")
+      .Bind(spec_json)
+      .Finish();
   for (const TrialRecord& trial : trials) Insert(trial);
   SetOpen();
   SealCampaign(database_);

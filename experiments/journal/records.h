@@ -106,13 +106,13 @@ struct ExperimentRecord {
   TALUS_FIELDS(name, reference, frame_json, nebp_px, num_heaps, noise_mm2, runs, scalars, warnings);
 };
 
-// What holds for the campaign as a whole. Written once, when it starts.
+// What holds for the campaign as a whole.
 struct CampaignRecord {
   std::string name;
   std::string spec_path;      // absolute, where it was then
   std::string spec_text;      // as the user wrote it
   std::string spec_json;      // as it was understood, all defaults filled in
-  std::string spec_hash;      // of what may not change
+  std::string spec_hash;      // of spec_json when the campaign began
   std::string talus_version;  // of the program that started it
   std::string created_utc;    // 2026-01-31T12:00:00Z
   std::string objective;      // name of the metric that is minimised, or of the angle to be met

@@ -78,7 +78,15 @@ void EndGroup(pid_t group, const std::string& start) {
   // are gone too.
   if (leader.state != 0 && leader.start != start) return;
   if (::kill(-group, SIGKILL) != 0) return;
-  while (GroupRuns(group)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  constexpr auto kPause = std::chrono::milliseconds(2);
+  constexpr auto kMostPatience = std::chrono::minutes(2);
+  for (auto waited = std::chrono::nanoseconds(0); GroupRuns(group); waited += kPause) {
+    if (waited > kMostPatience) {
+      throw base::Error("the processes of an earlier attempt (group " + std::to_string(group) +
+                        ") do not end, as where a disk does not answer; end them and resume");
+    }
+    std::this_thread::sleep_for(kPause);
+  }
 }
 
 // What an earlier, killed program has left running in this folder.

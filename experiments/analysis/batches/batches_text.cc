@@ -44,10 +44,13 @@ std::string TogetherText(const BatchTogether& together) {
 std::string PicturesText(const BatchPictures& p) {
   if (!p.absent.empty()) return "not compared: " + p.absent;
   const bool differ = IsBeyondChance(p.probability);
+  const bool can_tell = IsBeyondChance(1.0 / p.num_arrangements);
   return ShortNumber(p.sad_mm2) + " mm² between the mean profiles, " +
-         (differ ? "beyond" : "within") + " the scatter of the runs (probability by chance " +
-         ShortNumber(p.probability, 2) + ", " + std::to_string(p.num_arrangements) +
-         " arrangements)";
+         (differ     ? "beyond the scatter of the runs"
+          : can_tell ? "within the scatter of the runs"
+                     : "of which so few runs cannot say whether it is chance; four each can") +
+         " (probability by chance " + ShortNumber(p.probability, 2) + ", " +
+         std::to_string(p.num_arrangements) + " arrangements)";
 }
 
 std::string NumberText(const BatchNumber& n) {

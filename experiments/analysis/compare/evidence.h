@@ -122,6 +122,7 @@ struct Evidence {
   std::string model_absent;                   // why, where there is none
   std::vector<ObjectiveKnowledge> knowledge;  // none before the campaign has ended
   std::vector<StageTime> stages;              // where the time went
+  double core_hours = 0;                      // of the trials so far, or as the answer says it
   std::vector<NamedText> versions;            // of talus and what it stands on
   std::string spec;                           // the text of the spec's file
   std::string spec_json;                      // as it was understood
@@ -133,16 +134,22 @@ struct Evidence {
     return std::ranges::none_of(parameters, [](const auto& p) { return p.range.is_nuisance; });
   }
   bool IsRunning() const { return state == journal::CampaignState::kRunning && !ended_silently; }
+
+  // Those of all experiments; they live as long as this.
+  std::vector<const TrialEvidence*> AllTrials() const {
+    std::vector<const TrialEvidence*> all;
+    for (const TrialEvidence& trial : trials) all.push_back(&trial);
+    for (const TrialEvidence& trial : of_others) all.push_back(&trial);
+    return all;
+  }
 };
 
 // Whether a trial of any experiment has ended since that with this id: what was made of those up to
 // it is older than the campaign.
 inline bool HaveTrialsEndedSince(const Evidence& evidence, std::int64_t id) {
-  const auto is_later = [&](const TrialEvidence& trial) {
-    return trial.id > id && trial.state != journal::TrialStatus::kRunning;
-  };
-  return std::ranges::any_of(evidence.trials, is_later) ||
-         std::ranges::any_of(evidence.of_others, is_later);
+  return std::ranges::any_of(evidence.AllTrials(), [&](const TrialEvidence* trial) {
+    return trial->id > id && trial->state != journal::TrialStatus::kRunning;
+  });
 }
 
 // Column of a metric; nothing when no trial has it.

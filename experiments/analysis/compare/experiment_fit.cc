@@ -46,9 +46,9 @@ std::string SimulatedShape(const ResultConfirmed& confirmed) {
 
 // Where it is farther than what fits and no farther than chance.
 std::string ChanceText(const campaign::MeasurementFit& fit) {
-  return fit.meets == Meets::kUnknown && std::isfinite(fit.off)
-             ? ", which so few simulations may be by chance"
-             : "";
+  if (fit.meets != Meets::kUnknown || !std::isfinite(fit.off)) return "";
+  return fit.few_measured ? ", which so few measured values may be by chance"
+                          : ", which so few simulations may be by chance";
 }
 
 std::string ShapeJudgement(const campaign::MeasurementFit& fit, int num_heaps) {
@@ -107,7 +107,8 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   FitRow row{.experiment = experiment.name,
              .what = base::LowerFirst(MetricTitle(measured.name)),
              .measured = shown(measured.value) + " ± " + shown(measured.standard_error) + ending,
-             .meets = fit.meets};
+             .meets = fit.meets,
+             .few_measured = fit.few_measured};
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (standing != nullptr && index < standing->numbers.size()) {
     const optimizer::NumberStanding& number = standing->numbers[index];
@@ -144,10 +145,11 @@ std::string NameOf(const FitRow& row) {
 }
 
 // "The mass of "heap" and …" of the rows that are so; empty without.
-std::string Names(const std::vector<FitRow>& rows, Meets meets, bool simulated) {
+template <class Select>
+std::string Names(const std::vector<FitRow>& rows, Select select) {
   std::vector<std::string> names;
   for (const FitRow& row : rows) {
-    if (row.meets == meets && row.is_confirmed == simulated) names.push_back(NameOf(row));
+    if (select(row)) names.push_back(NameOf(row));
   }
   return base::Listed(names);
 }
@@ -174,18 +176,29 @@ std::vector<FitRow> FitRows(const Answer& answer, const journal::CampaignRecord&
 
 std::string FitSentence(const std::vector<FitRow>& rows) {
   std::string text;
+  const auto add_those = [&](const auto& select, const std::string& before,
+                             const std::string& after) {
+    const std::string names = Names(rows, select);
+    if (!names.empty()) text += (text.empty() ? "" : " ") + before + names + after + ".";
+  };
   const auto add = [&](bool simulated, Meets meets, const std::string& before,
                        const std::string& after) {
-    const std::string names = Names(rows, meets, simulated);
-    if (!names.empty()) text += (text.empty() ? "" : " ") + before + names + after + ".";
+    add_those(
+        [&](const FitRow& row) { return row.meets == meets && row.is_confirmed == simulated; },
+        before, after);
+  };
+  const auto is_open = [](const FitRow& row) {
+    return row.meets == Meets::kUnknown && row.is_confirmed;
   };
   add(true, Meets::kYes, "With these values simulations give ",
       " within the errors of measurement and simulations");
   add(true, Meets::kNo, "With these values simulations miss ", "");
   add(false, Meets::kYes, "The model expects ", " within the errors of measurement and prediction");
   add(false, Meets::kNo, "The model expects to miss ", "");
-  add(true, Meets::kUnknown,
-      "The few simulations with these values do not tell how well they meet ", "");
+  add_those([&](const FitRow& row) { return is_open(row) && !row.few_measured; },
+            "The few simulations with these values do not tell how well they meet ", "");
+  add_those([&](const FitRow& row) { return is_open(row) && row.few_measured; },
+            "So few measured values do not tell whether simulations with these values meet ", "");
   add(false, Meets::kUnknown, "No simulation with these values tells how well they meet ", "");
   return text;
 }

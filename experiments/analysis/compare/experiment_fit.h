@@ -22,6 +22,7 @@ struct FitRow {
   std::string confirmed{};                  // the confirming part of `simulated`
   bool is_confirmed = false;                // simulated again with fresh seeds
   bool held_out = false;                    // the answer is made without it
+  bool few_measured = false;                // what leaves it open is the measurement
 };
 
 // Every experiment's image and numbers, in the campaign's order: as confirmed with fresh seeds, or

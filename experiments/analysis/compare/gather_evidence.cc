@@ -18,8 +18,10 @@
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/status.h"
+#include "experiments/journal/checksums.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
@@ -132,18 +134,29 @@ void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
   evidence.scale_factor = FinestOfSearch(trials);
 }
 
+// As the answer counts it.
+double CoreHours(const std::vector<journal::TrialRecord>& trials,
+                 const campaign::CampaignSpec& spec) {
+  double seconds = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    const bool counts =
+        trial.status != journal::TrialStatus::kRunning && trial.kind != journal::TrialKind::kReused;
+    if (counts) seconds += campaign::MeasuredCoreTime(trial, spec);
+  }
+  return seconds / 3600;
+}
+
 // The times of all experiments together.
 void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
   double cpu = 0;
-  for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
-    for (const TrialEvidence& trial : *trials) {
-      if (trial.state == journal::TrialStatus::kRunning ||
-          trial.kind == journal::TrialKind::kReused)
-        continue;
-      wall += trial.seconds;
-      cpu += trial.cpu_seconds;
+  for (const TrialEvidence* trial : evidence.AllTrials()) {
+    if (trial->state == journal::TrialStatus::kRunning ||
+        trial->kind == journal::TrialKind::kReused) {
+      continue;
     }
+    wall += trial->seconds;
+    cpu += trial->cpu_seconds;
   }
   evidence.stages = {{"the campaign, from start to now or to its end", elapsed},
                      {"all simulations, one after the other", wall},
@@ -232,7 +245,7 @@ void AddVersions(const journal::CampaignRecord& record, Evidence& evidence) {
                        {"started", record.created_utc},
                        {"strategy", evidence.strategy},
                        {"spec", record.spec_path},
-                       {"hash of the spec", record.spec_hash},
+                       {"hash of the spec", base::Hex(base::Checksum(record.spec_json))},
                        {"seeds", SeedsText(evidence.trials.size() + evidence.of_others.size())}};
 }
 
@@ -272,6 +285,8 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   AddAnswer(progress.result_json, record, evidence);
   MarkNuisances(spec, evidence);
   AddTimes(evidence, progress.elapsed_s);
+  evidence.core_hours = evidence.answer && !evidence.IsRunning() ? evidence.answer->cost.core_hours
+                                                                 : CoreHours(trials, spec);
   AddVersions(record, evidence);
   evidence.profile =
       [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {

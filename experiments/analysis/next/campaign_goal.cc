@@ -142,26 +142,17 @@ Prediction CampaignGoal::Collect(double& core_time) const {
     const auto design = look.Read();
     if (!design || !IsOurs(*design)) continue;
     for (std::size_t i = 0; i < design->points.size(); ++i) {
-      if (!parts_.engine->IsComplete(look.trial(i))) {
-        core_time += campaign::TimeOfFailure(look.trial(i)).value_or(0);
-        continue;
-      }
-      double value = base::kNotKnown;
-      try {
-        const trials::TrialOutput output =
-            parts_.engine->Collect(CaseAt(folder, *design, i), look.trial(i));
-        core_time += output.cpu_time;
-        const auto found =
-            std::ranges::find(output.scalars, number.name, &journal::MetricRecord::name);
-        if (found != output.scalars.end()) value = found->value;
-      } catch (const base::Error&) {
-        continue;  // it failed, and says nothing
-      }
+      const campaign::CaseOutcome outcome = campaign::OutcomeOf(
+          {.folder = look.trial(i), .rig_case = CaseAt(folder, *design, i)}, *parts_.engine);
+      core_time += outcome.core_time;
+      if (!outcome.output) continue;
+      const auto& scalars = outcome.output->scalars;
+      const auto found = std::ranges::find(scalars, number.name, &journal::MetricRecord::name);
       runs.runs.push_back(
           {.draw = static_cast<int>(runs.draws.size()), .scale_factor = scale_factor});
       runs.draws.push_back(
           {.weight = 1, .values = campaign::FreeValues(plan_.space, PointOf(*design, i))});
-      number.by_run.push_back(value);
+      number.by_run.push_back(found != scalars.end() ? found->value : base::kNotKnown);
     }
   }
   runs.num_runs = static_cast<int>(runs.draws.size());

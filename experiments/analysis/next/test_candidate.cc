@@ -143,7 +143,7 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
 }
 
 std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
-  base::Problems problems(test.name, {});
+  base::Problems problems;
   for (const journal::ExperimentRecord& made : view.record.experiments) {  // a plan has none
     problems.Require(made.name != test.name, "name",
                      "is that of an experiment of the campaign: give the test its own");

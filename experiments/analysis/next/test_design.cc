@@ -80,16 +80,11 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const campaign::FolderCase at{.folder = FolderOf(view, test).trial(i),
                                   .rig_case = CaseAt(view, test, record, i)};
-    if (const auto failed = campaign::TimeOfFailure(at.folder)) {
-      ++design.num_simulations;
-      design.core_time += *failed;
-      continue;
-    }
-    if (!engine.IsComplete(at.folder)) continue;
-    ++design.num_simulations;
-    if (auto trial = CollectTrial(engine, at, PointOf(record, i), design.core_time)) {
-      design.trials.push_back(std::move(*trial));
-    }
+    campaign::CaseOutcome outcome = campaign::OutcomeOf(at, engine);
+    design.num_simulations += outcome.has_ended ? 1 : 0;
+    design.core_time += outcome.core_time;
+    if (!outcome.output) continue;
+    design.trials.push_back(TrialOf(PointOf(record, i), std::move(*outcome.output)));
   }
   return design;
 }
@@ -110,16 +105,9 @@ void Simulate(const campaign::JointView& view, const TestCandidate& test,
 
 }  // namespace
 
-std::optional<DesignTrial> CollectTrial(trials::TrialEngine& engine, const campaign::FolderCase& at,
-                                        const Eigen::VectorXd& point, double& core_time) {
-  try {
-    trials::TrialOutput output = engine.Collect(at.rig_case, at.folder);
-    core_time += output.cpu_time;
-    return DesignTrial{
-        .point = point, .profile = std::move(output.profile), .scalars = std::move(output.scalars)};
-  } catch (const base::Error&) {
-    return std::nullopt;  // it failed, and says nothing
-  }
+DesignTrial TrialOf(const Eigen::VectorXd& point, trials::TrialOutput output) {
+  return {
+      .point = point, .profile = std::move(output.profile), .scalars = std::move(output.scalars)};
 }
 
 std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,

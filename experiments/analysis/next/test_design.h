@@ -38,9 +38,8 @@ struct TestDesign {
 std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,
                                        trials::TrialEngine& engine);
 
-// What a simulation of a set has shown; nothing where it failed. Adds what it took [s].
-std::optional<DesignTrial> CollectTrial(trials::TrialEngine& engine, const campaign::FolderCase& at,
-                                        const Eigen::VectorXd& point, double& core_time);
+// What a simulation of a set has shown.
+DesignTrial TrialOf(const Eigen::VectorXd& point, trials::TrialOutput output);
 
 // Where a design's points lie.
 struct DesignPlace {

@@ -132,21 +132,14 @@ UnknownTrials StoredUnknowns(const campaign::JointView& view, const MovedDesign&
     all.moved.push_back({.name = move.name, .from = move.from, .to = move.to, .trials = {}});
   }
   for (const UnknownRun& run : RunsOf(moved.moves)) {
-    const campaign::FolderCase at = FolderCaseOf(view, moved, run);
-    if (const auto failed = campaign::TimeOfFailure(at.folder)) {
-      all.core_time += *failed;
-      continue;
-    }
-    if (!engine.IsComplete(at.folder)) {
-      ++all.num_missing;
-      continue;
-    }
+    campaign::CaseOutcome outcome = campaign::OutcomeOf(FolderCaseOf(view, moved, run), engine);
+    all.num_missing += outcome.has_ended ? 0 : 1;
+    all.core_time += outcome.core_time;
+    if (!outcome.output) continue;
     auto& trials = run.move == nullptr
                        ? all.base
                        : all.moved[static_cast<std::size_t>(run.move - moved.moves.data())].trials;
-    if (auto trial = CollectTrial(engine, at, moved.design.middle, all.core_time)) {
-      trials.push_back(std::move(*trial));
-    }
+    trials.push_back(TrialOf(moved.design.middle, std::move(*outcome.output)));
   }
   return all;
 }

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/scene_engine.h"
+#include "experiments/campaign/spec/deck_gaps.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -122,6 +123,16 @@ void TakePowder(const JointView& view, rigs::Case& rig_case) {
   rig_case.threads = view.spec.threads;
 }
 
+// Without its kind or its sizes the deck would simulate the campaign's own test again.
+void RefuseUntold(const JointView& view, const base::JsonFile& file, const rigs::Case& rig_case) {
+  const std::string untold = campaign::UntoldOf(view.spec, rig_case);
+  if (untold.empty()) return;
+  throw base::ConfigError(file.path.string() + ": the engine's templates have no " + untold +
+                          ", in which it differs from \"" +
+                          campaign::ExperimentsOf(view.spec).front().name +
+                          "\": they would simulate that again; let a template take it");
+}
+
 void ReadRigCase(const JointView& view, const base::JsonFile& file,
                  std::optional<double> scale_factor, const RunBudget& budget,
                  PredictedCase& predicted) {
@@ -143,6 +154,7 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
                       view.space.ToNative(Eigen::VectorXd::Constant(
                           static_cast<Eigen::Index>(view.space.Free().size()), 0.5)),
                       view.spec.seed);
+  RefuseUntold(view, file, rig_case);
   rig_case.coarse_graining.scale_factor =
       scale_factor ? *scale_factor : AffordableScale(view, rig_case, budget);
   RequireSimulable(predicted, rig_case.coarse_graining.scale_factor);
@@ -173,6 +185,11 @@ PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
                 predicted);
   } else {
     ReadScene(view, file, scale_factor, predicted);
+    if (view.spec.engine.kind == campaign::EngineKind::kCommand) {
+      predicted.notes.emplace_back(
+          "simulated by talus itself, but the sets were calibrated with another engine: parameters "
+          "of one name need not mean the same");
+    }
     predicted.states_scale_factor = true;  // by its grains
   }
   return predicted;

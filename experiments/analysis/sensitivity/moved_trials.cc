@@ -51,22 +51,23 @@ Simulated ReadSimulated(const SensitivitySetting& setting, const MovedSet& set, 
   const campaign::Reference& reference =
       setting.view.references[static_cast<std::size_t>(experiment)];
   const Eigen::VectorXd point = set.point.value_or(setting.point);
-  const fs::path folder = FolderOf(setting, set, experiment, replicate);
+  const campaign::CaseOutcome outcome =
+      campaign::OutcomeOf({.folder = FolderOf(setting, set, experiment, replicate),
+                           .rig_case = MovedCase(setting, set, experiment, replicate)},
+                          *setting.parts.engine);
   journal::TrialRecord trial;
   trial.unit = {point.begin(), point.end()};
   trial.experiment = experiment;
   trial.scale_factor = setting.scale_factor;
   trial.status = journal::TrialStatus::kFailed;
+  trial.cpu_s = outcome.core_time;
   std::vector<float> field;
   try {
-    if (!setting.parts.engine->IsComplete(folder)) throw base::Error("did not end well");
-    const trials::TrialOutput output =
-        setting.parts.engine->Collect(MovedCase(setting, set, experiment, replicate), folder);
-    if (reference.has_image()) field = reference.Field(output.profile);
-    campaign::TakeOutput(output, reference, trial);
+    if (!outcome.output) throw base::Error("did not end well");
+    if (reference.has_image()) field = reference.Field(outcome.output->profile);
+    campaign::TakeOutput(*outcome.output, reference, trial);
   } catch (const base::Error&) {
     // It says nothing of the shift; the table counts it.
-    trial.cpu_s = campaign::TimeOfFailure(folder).value_or(0);
   }
   return {.observation = campaign::ObservationOf(trial, reference, std::move(field)),
           .has_ended = trial.status == journal::TrialStatus::kOk,

@@ -70,8 +70,7 @@ std::string MissesText(const Alarm& a) {
   const std::string finer = a.scale_factor ? FinerText(*a.scale_factor) : "";
   if (a.kind == AlarmKind::kSearchMisses) {
     return text + ", and the search is not done: " + a.reason.value_or("") +
-           "; more simulations come before any doubt of the contact law, the plate or the set-up "
-           "(" +
+           "; simulate more before the contact law, the plate or the set-up is doubted for it (" +
            ResumeCommand(kMoreSimulations) + ")" + finer;
   }
   return text + ": nothing stands on this answer before " + PriorOf(a) +
@@ -95,9 +94,10 @@ std::string AlarmText(const Alarm& a) {
       return rigs::FewGrainsText(a.value.value_or(0), a.scale_factor.value_or(1),
                                  a.experiment.value_or(""));
     case AlarmKind::kImplausible:
-      return "no set fits " + experiment + ": the recommended one is " + value +
-             " standard deviations off; " + PriorOf(a) +
-             "the searched ranges, the contact law, the walls' material or the set-up is wrong";
+      return "no set fits " + experiment + (a.reason ? " beside the other tests" : "") +
+             ": the recommended one is " + value + " standard deviations off; " + PriorOf(a) +
+             "the searched ranges, the contact law, the walls' material or the set-up is wrong" +
+             a.reason.value_or("");
     case AlarmKind::kAllAlike:
       return "all " + base::ShortNumber(a.value.value_or(0)) + " simulations of " + experiment +
              " gave exactly the same, whatever was searched and whatever the seed: does the engine "

@@ -58,20 +58,6 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
                .noise_floor = floor};
 }
 
-// The best trial of the search for the experiment at the scale factor.
-const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>& trials,
-                                         const Reference& reference, int experiment,
-                                         double scale_factor) {
-  const journal::TrialRecord* best = nullptr;
-  for (const journal::TrialRecord& trial : trials) {
-    if (!trial.IsOfSearch() || trial.experiment != experiment || trial.scale_factor != scale_factor)
-      continue;
-    if (trial.status != journal::TrialStatus::kOk || !reference.Value(trial)) continue;
-    if (best == nullptr || *reference.Value(trial) < *reference.Value(*best)) best = &trial;
-  }
-  return best;
-}
-
 // At the finest scale factor, which decides: coarser ones only guide the search.
 void AddGrainWarnings(const CampaignSpec& spec, Answer& answer) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);

@@ -165,7 +165,10 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   }
   fit.off = OffBy(measured, simulated, error);
   fit.meets = NumberMeets(measured, fit.off, error, degrees);
-  if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
+  // Of an experiment that no set fits what is close is so all the same.
+  if (IsImplausible(answer, experiment.name) && !(fit.off <= kCloseNumber)) fit.meets = Meets::kNo;
+  fit.few_measured = MostByChance(measured.degrees) * measured.standard_error >
+                     MostByChance(degrees) * (std::isfinite(error) ? error : 0);
   return fit;
 }
 

@@ -51,6 +51,7 @@ struct MeasurementFit {
   double off = base::kNotKnown;    // of an image in noise floors, of a number in standard errors
   double share = base::kNotKnown;  // of an image: SAD of the mean profile over the powder's area
   std::optional<std::string> undefined{};  // of a number: why no confirming trial has one
+  bool few_measured = false;  // of a number: more of what chance may do is the measurement's
 };
 
 // The confirming trials of an experiment, where they are of the target scale factor; else null.

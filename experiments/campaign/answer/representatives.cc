@@ -19,6 +19,8 @@ const ResultCandidate* Confirmed(const Answer& result, const Eigen::VectorXd& po
 bool Fits(const RepresentativeBasis& basis, const journal::TrialRecord& trial) {
   if (!trial.IsOfSearch() || trial.status != journal::TrialStatus::kOk) return false;
   if (trial.scale_factor != basis.finest) return false;
+  const ResultCandidate* confirmed = Confirmed(basis.result, PointOf(trial));
+  if (confirmed != nullptr && Misses(basis.result, *confirmed)) return false;
   const auto level = basis.planner.CredibleLevels(PointOf(trial).transpose());
   return level && (*level)[0] <= optimizer::kRegionLevel;
 }

@@ -158,4 +158,21 @@ double Reference::ValueOfField(std::span<const float> field) const {
       .value;
 }
 
+const journal::TrialRecord* BestOfSearch(std::span<const journal::TrialRecord> trials,
+                                         const Reference& reference, int experiment,
+                                         double scale_factor) {
+  const journal::TrialRecord* best = nullptr;
+  double least = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    const bool is_asked = trial.IsOfSearch() && trial.experiment == experiment &&
+                          trial.scale_factor == scale_factor &&
+                          trial.status == journal::TrialStatus::kOk;
+    const auto value = is_asked ? reference.Value(trial) : std::nullopt;
+    if (!value || (best != nullptr && *value >= least)) continue;
+    best = &trial;
+    least = *value;
+  }
+  return best;
+}
+
 }  // namespace talus::campaign

@@ -67,4 +67,10 @@ class Reference {
   double angle_ = 0;  // of the experiment, for an angle objective [deg]
 };
 
+// The best trial of the search for an experiment at a scale factor; null where none has succeeded,
+// or the reference has no image.
+const journal::TrialRecord* BestOfSearch(std::span<const journal::TrialRecord> trials,
+                                         const Reference& reference, int experiment,
+                                         double scale_factor);
+
 }  // namespace talus::campaign

@@ -26,9 +26,9 @@ namespace {
 using nlohmann::ordered_json;
 
 // Keys that a running campaign may be given anew: what to spend and where, not what to find.
-constexpr std::string_view kMayChange[] = {"name",         "budget",  "goal",    "confirm",
-                                           "next",         "workers", "threads", "trial_time_cap",
-                                           "retry_failed", "runner"};
+constexpr std::string_view kEndSearch[] = {"budget", "goal", "confirm", "retry_failed"};
+constexpr std::string_view kOfRunning[] = {"name",    "next",           "workers",
+                                           "threads", "trial_time_cap", "runner"};
 
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
@@ -338,11 +338,21 @@ std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
   ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
   ordered_json new_spec = ordered_json::parse(new_text);
   for (ordered_json* spec : {&old_spec, &new_spec}) {
-    for (const std::string_view key : kMayChange) spec->erase(std::string(key));
+    for (const std::string_view key : kEndSearch) spec->erase(std::string(key));
+    for (const std::string_view key : kOfRunning) spec->erase(std::string(key));
     // Templates may lie elsewhere where they are the same: their hash says so.
     if (spec->contains("engine")) spec->at("engine").erase("templates");
   }
   return base::JsonChanges(old_spec, new_spec);
+}
+
+bool AsksMore(const std::string& old_text, const std::string& new_text) {
+  const ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
+  const ordered_json new_spec = ordered_json::parse(new_text);
+  return std::ranges::any_of(kEndSearch, [&](std::string_view key) {
+    return old_spec.value(std::string(key), ordered_json()) !=
+           new_spec.value(std::string(key), ordered_json());
+  });
 }
 
 std::string ChangeText(const base::JsonChange& change) {

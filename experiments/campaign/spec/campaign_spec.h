@@ -181,6 +181,10 @@ rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int ex
 std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
                                                const std::string& new_text);
 
+// Whether the new one may end a search elsewhere than the old: where it differs in what is to be
+// found or spent, and not only in how trials are run.
+bool AsksMore(const std::string& old_text, const std::string& new_text);
+
 // "powder.mass: 0.001 → 0.002"
 std::string ChangeText(const base::JsonChange& change);
 

@@ -101,6 +101,13 @@ void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems) {
   }
 }
 
+std::string UntoldOf(const CampaignSpec& spec, const rigs::Case& rig_case) {
+  if (spec.engine.kind != EngineKind::kCommand) return "";
+  const trials::TemplateFolder templates(*spec.engine.command.templates);
+  const rigs::Case first = TypicalCase(spec, 0, spec.coarse_graining.Levels().front());
+  return base::Listed(Untold(templates, spec.engine.command, first, rig_case));
+}
+
 std::vector<std::string> DeckWarnings(const CampaignSpec& spec) {
   if (spec.engine.kind != EngineKind::kCommand) return {};
   if (!std::filesystem::is_directory(*spec.engine.command.templates)) return {};

@@ -14,6 +14,10 @@ namespace talus::campaign {
 // simulated again. Nothing where the engine is ours.
 void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems);
 
+// "{{ rig_kind }} and {{ mass }}": in which a case, as of a process, differs from the campaign's
+// first experiment and no template takes. Empty where the engine is ours.
+std::string UntoldOf(const CampaignSpec& spec, const rigs::Case& rig_case);
+
 // What is to be said of a deck that takes no seed, nor grains in place: repeated trials may be one
 // run again; and of one that takes no grain size for several scale factors. None where the engine
 // is ours.

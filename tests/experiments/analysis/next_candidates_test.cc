@@ -92,8 +92,7 @@ TEST_F(NextCandidates, WhatAddExperimentWouldRefuseIsNotRanked) {
   TestCandidate odd{.name = "odd"};
   odd.numbers.Of<rigs::Observable::kTappedDensity>() = {.standard_error = 4};
   const NextTable table = Rank(view, {fast, unfilmed, odd}, true);
-  EXPECT_THAT(Find(table, "fast").what,
-              HasSubstr("cannot be simulated: fast: device.lift_velocity"));
+  EXPECT_THAT(Find(table, "fast").what, HasSubstr("cannot be simulated: device.lift_velocity"));
   EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
   EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
   EXPECT_THAT(NextJson(table), testing::Not(HasSubstr("\"needs_simulations\": true")));

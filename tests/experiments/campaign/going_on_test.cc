@@ -169,6 +169,28 @@ TEST_F(GoingOnTest, AnotherSpecThatIsNamedOnceIsReadFromThenOn) {
   EXPECT_EQ(record.spec_path, other);
 }
 
+// A comment in the spec's file took the answer away and searched on.
+TEST_F(GoingOnTest, OnlyWhatTheSearchDependsOnOpensOneThatHasEnded) {
+  const fs::path folder = Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const fs::path spec = scratch_.path() / "run_in" / "spec.json";
+  const std::string text = base::ReadFile(spec);
+  const auto resumed_with = [&](const std::string& changed) {
+    std::ofstream(spec) << changed;
+    Console console(folder / "campaign.log", Console::Output::kQuiet);
+    OpenCampaign(folder, {}, console);
+    return Progress(folder).state;
+  };
+  std::string renamed = text;
+  renamed.replace(renamed.find("fake"), 4, "again");
+  std::string larger = text;
+  larger.replace(larger.find("\"simulations\": 10"), 17, "\"simulations\": 11");
+  EXPECT_EQ(resumed_with("// noted later\n" + text), journal::CampaignState::kFinished);
+  EXPECT_EQ(resumed_with(renamed), journal::CampaignState::kFinished);
+  EXPECT_NE(Progress(folder).result_json, "");
+  EXPECT_EQ(resumed_with(larger), journal::CampaignState::kInterrupted);
+}
+
 TEST_F(GoingOnTest, AnExtensionIsStillThereInAJournalThatIsMadeAnew) {
   const fs::path folder = Begin(kSmall);
   Console console(folder / "campaign.log", Console::Output::kQuiet);

@@ -233,6 +233,7 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   // Trials are compared with the experiment that they are of.
   const analysis::Evidence fast = analysis::GatherEvidence(folder, "fast lift");
   EXPECT_EQ(fast.trials.size(), static_cast<std::size_t>(searched[1] + confirmed[1]));
+  EXPECT_EQ(fast.core_hours, result.cost.core_hours);  // of both tests
   EXPECT_THROW(analysis::GatherEvidence(folder, "slow lift"), base::ConfigError);
 }
 

@@ -45,6 +45,33 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
 }
 
+// Two numbers of a test that no set fits: one of them is met all the same. Which of measurement and
+// simulations leaves the other open is said.
+TEST(Misses, ANumberThatIsMetIsSoBesideOneThatIsMissed) {
+  Answer answer = ConfirmedAt(4);
+  answer.experiments[0].has_image = false;
+  answer.experiments[0].numbers = {
+      {.name = "poured_density_kg_per_m3", .value = 1420, .standard_error = 14},
+      {.name = "hausner_ratio", .value = 1.08, .standard_error = 0.01, .degrees = 2}};
+  answer.posterior->experiments[0].implausibility = 3.4;
+  HeapOf(answer).scalars = {{.name = "poured_density_kg_per_m3",
+                             .num_trials = 3,
+                             .mean = 1431,
+                             .standard_error = 3,
+                             .degrees = 6},
+                            {.name = "hausner_ratio",
+                             .num_trials = 3,
+                             .mean = 1.03,
+                             .standard_error = 0.002,
+                             .degrees = 6}};
+  EXPECT_EQ(NumberFit(answer, answer.experiments[0], 0).meets, Meets::kYes);
+  EXPECT_EQ(NumberFit(answer, answer.experiments[0], 1).meets, Meets::kNo);
+  answer.posterior->experiments[0].implausibility = 1;
+  const MeasurementFit open = NumberFit(answer, answer.experiments[0], 1);
+  EXPECT_EQ(open.meets, Meets::kUnknown);  // 5 standard errors of three values
+  EXPECT_TRUE(open.few_measured);
+}
+
 // A drum whose simulations carry the powder round has no angle to compare.
 TEST(Misses, ANumberThatNoSimulationOfTheSetHasIsMissed) {
   Answer answer = ConfirmedAt(4);

@@ -167,6 +167,26 @@ TEST(Spec, DecksThatTakeNoSeedOrNoGrainSizeAreWarnedOf) {
   EXPECT_TRUE(warnings("{{# grains }}{{ radius }}{{/ grains }}").empty());
 }
 
+// A drum was predicted with the deck of a lifted tube: the tube again.
+TEST(Spec, ADeckIsToldOfWhatMakesAProcessAnotherTest) {
+  const ScratchFolder scratch;
+  CampaignSpec spec = Read(kGood);
+  spec.engine.kind = EngineKind::kCommand;
+  spec.engine.command.command = {"sh", "run.sh"};
+  spec.engine.command.templates = scratch.path();
+  rigs::Case other = TypicalCase(spec, 0, spec.coarse_graining.Levels().front());
+  const auto untold = [&](const char* deck) {
+    std::ofstream(scratch.path() / "run.sh") << deck;
+    return UntoldOf(spec, other);
+  };
+  EXPECT_EQ(untold("{{ seed }}"), "");
+  other.rig.kind = rigs::RigKind::kDrum;
+  EXPECT_THAT(untold("{{ seed }}"), HasSubstr("{{ rig_kind }}"));
+  EXPECT_EQ(untold("{{ rig_kind }}"), "");
+  spec.engine.kind = EngineKind::kTalus;
+  EXPECT_EQ(untold("{{ seed }}"), "");
+}
+
 TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   const CampaignSpec spec = Read(With(R"("device": {"plate_material": {"restitution": 0.4}},
     "parameters": {

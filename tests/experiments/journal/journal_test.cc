@@ -216,9 +216,20 @@ TEST_F(JournalTest, AnExperimentAndTheTrialsItTakesOverAreThereTogetherOrNotAtAl
   EXPECT_EQ(journal.Campaign().spec_json, "{}");
   EXPECT_EQ(journal.Trials().size(), 1u);
   const TrialRecord further[] = {Trial(2), Trial(3)};
+  journal.SetProgress({.state = CampaignState::kFinished, .result_json = "{}"});
   journal.AddExperiment(Experiment("drum", 40), "{\"new\": 1}", further);
+  EXPECT_EQ(journal.Progress().result_json, "");  // it knows nothing of the new one
   EXPECT_EQ(journal.Campaign().experiments.size(), 3u);
   EXPECT_EQ(journal.Trials().size(), 3u);
+}
+
+// What another program holds was taken for damaged, and made anew without its events.
+TEST_F(JournalTest, HeldByAnotherProgramIsNotDamaged) {
+  Journal journal = Journal::Create(File(), Campaign());
+  Database other(File(), Database::Mode::kReadWrite);
+  other.Execute("BEGIN IMMEDIATE");
+  const std::string error = ErrorIn<base::ConfigError>([&] { journal.SetProgress({}); });
+  EXPECT_THAT(error, ::testing::HasSubstr("another program holds it"));
 }
 
 TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {

@@ -96,16 +96,15 @@ struct Counts {
 // Over all experiments.
 Counts CountsOf(const Evidence& e) {
   Counts counts;
-  for (const auto* trials : {&e.trials, &e.of_others}) {
-    for (const TrialEvidence& t : *trials) {
-      if (t.state == journal::TrialStatus::kFailed && t.kind != journal::TrialKind::kConfirm) {
-        ++counts.failed;
-        ++counts.searched;
-      }
-      if (t.state != journal::TrialStatus::kOk || t.kind == journal::TrialKind::kConfirm) continue;
-      ++(t.kind == journal::TrialKind::kReused ? counts.reused : counts.searched);
-      counts.scale_factors.push_back(t.scale_factor);
+  for (const TrialEvidence* t : e.AllTrials()) {
+    if (t->kind == journal::TrialKind::kConfirm) continue;
+    if (t->state == journal::TrialStatus::kFailed) {
+      ++counts.failed;
+      ++counts.searched;
     }
+    if (t->state != journal::TrialStatus::kOk) continue;
+    ++(t->kind == journal::TrialKind::kReused ? counts.reused : counts.searched);
+    counts.scale_factors.push_back(t->scale_factor);
   }
   std::vector<double>& factors = counts.scale_factors;
   std::sort(factors.begin(), factors.end(), std::greater());

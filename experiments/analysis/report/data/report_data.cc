@@ -84,12 +84,11 @@ double RegionShare(const ReportData& data) {
 }
 
 void Follow(const ReportData& data, std::vector<RegionPoint>& history) {
-  RegionPoint now{.num_trials = 0, .share = RegionShare(data)};
-  for (const auto* trials : {&data.evidence.trials, &data.evidence.of_others}) {
-    now.num_trials += std::ranges::count_if(*trials, [](const TrialEvidence& trial) {
-      return trial.state != journal::TrialStatus::kRunning;
-    });
-  }
+  const auto has_ended = [](const TrialEvidence* trial) {
+    return trial->state != journal::TrialStatus::kRunning;
+  };
+  const RegionPoint now{.num_trials = std::ranges::count_if(data.evidence.AllTrials(), has_ended),
+                        .share = RegionShare(data)};
   if (std::isnan(now.share)) return;
   if (!history.empty() && history.back().num_trials == now.num_trials) return;
   history.push_back(now);

@@ -12,33 +12,20 @@ namespace {
 // Trials of all experiments.
 PageValue CountsJson(const Evidence& e) {
   int searched = 0, reused = 0, confirming = 0, failed = 0, running = 0;
-  for (const auto* trials : {&e.trials, &e.of_others}) {
-    for (const TrialEvidence& t : *trials) {
-      const bool ok = t.state == journal::TrialStatus::kOk;
-      searched +=
-          ok && t.kind != journal::TrialKind::kConfirm && t.kind != journal::TrialKind::kReused;
-      reused += ok && t.kind == journal::TrialKind::kReused;
-      confirming += ok && t.kind == journal::TrialKind::kConfirm;
-      failed += t.state == journal::TrialStatus::kFailed;
-      running += t.state == journal::TrialStatus::kRunning;
-    }
+  for (const TrialEvidence* t : e.AllTrials()) {
+    const bool ok = t->state == journal::TrialStatus::kOk;
+    searched +=
+        ok && t->kind != journal::TrialKind::kConfirm && t->kind != journal::TrialKind::kReused;
+    reused += ok && t->kind == journal::TrialKind::kReused;
+    confirming += ok && t->kind == journal::TrialKind::kConfirm;
+    failed += t->state == journal::TrialStatus::kFailed;
+    running += t->state == journal::TrialStatus::kRunning;
   }
   return {{"searched", searched},
           {"reused", reused},
           {"confirming", confirming},
           {"failed", failed},
           {"running", running}};
-}
-
-double CoreSeconds(const Evidence& e) {
-  double sum = 0;
-  for (const auto* trials : {&e.trials, &e.of_others}) {
-    for (const TrialEvidence& t : *trials) {
-      if (t.kind != journal::TrialKind::kReused && std::isfinite(t.cpu_seconds))
-        sum += t.cpu_seconds;
-    }
-  }
-  return sum;
 }
 
 // The campaign's own, of the experiment that is shown.
@@ -63,7 +50,6 @@ PageValue ObjectiveJson(const ReportData& data) {
 
 PageValue CampaignJson(const ReportData& data) {
   const Evidence& e = data.evidence;
-  const double cpu = CoreSeconds(e);
   return {
       {"name", e.name},
       {"state", std::string(e.ended_silently ? campaign::kEndedSilently : base::NameOf(e.state))},
@@ -76,7 +62,7 @@ PageValue CampaignJson(const ReportData& data) {
       {"reused_from",
        e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},
       {"scale_factor", NumberJson(e.scale_factor)},
-      {"core_hours", cpu > 0 ? NumberJson(cpu / 3600) : PageValue(nullptr)},
+      {"core_hours", e.core_hours > 0 ? NumberJson(e.core_hours) : PageValue(nullptr)},
       {"experiment", e.experiment < e.experiments.size() ? e.experiments[e.experiment] : ""},
       {"num_experiments", e.experiments.size()},
       {"has_image", e.reference.has_image()},

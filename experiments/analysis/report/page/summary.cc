@@ -176,7 +176,11 @@ std::string Fits(const Evidence& evidence) {
 // As much of a text as the sheet has room for, cut between words.
 std::string Shortened(const std::string& text) {
   if (text.size() <= kMostLetters) return text;
-  return text.substr(0, text.rfind(' ', kMostLetters)) + " …";
+  std::string kept = text.substr(0, text.rfind(' ', kMostLetters));
+  // No command is cut, for it would be typed.
+  if (std::ranges::count(kept, '`') % 2 != 0)
+    kept.resize(kept.find_last_not_of(" (", kept.rfind('`') - 1) + 1);
+  return kept + " …";
 }
 
 std::string Alarms(const Evidence& evidence) {

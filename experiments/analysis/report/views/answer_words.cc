@@ -74,6 +74,11 @@ double VolumeThen(const Answer& answer) {
 }
 
 std::string UseWords(const Answer& answer) {
+  const bool searches_on = campaign::HasAlarm(answer, {AlarmKind::kSearchMisses});
+  if (searches_on && campaign::HasAlarm(answer, {AlarmKind::kImplausible, AlarmKind::kDisagree})) {
+    return "No: no set found so far fits every measurement, and the search is not done. Simulate "
+           "more first.";
+  }
   if (campaign::HasAlarm(answer, {AlarmKind::kImplausible})) {
     return "No: no set fits every measurement. Check contact law, plate and set-up first.";
   }
@@ -87,7 +92,7 @@ std::string UseWords(const Answer& answer) {
   if (campaign::HasAlarm(answer, {AlarmKind::kConfirmationFailed})) {
     return "No: the simulations with it failed. Find out why first.";
   }
-  if (campaign::HasAlarm(answer, {AlarmKind::kSearchMisses})) {
+  if (searches_on) {
     return "No: a simulation with it misses what was measured, and the search is not done. "
            "Simulate more first.";
   }

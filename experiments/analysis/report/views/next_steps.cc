@@ -120,12 +120,13 @@ void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
                    .remaining = 0});
 }
 
-// Processor time of a simulation at the finest scale factor [s].
+// Processor time of a simulation at the finest scale factor, of any experiment [s].
 double TimeOfOne(const Evidence& evidence) {
   double sum = 0, count = 0;
-  for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.scale_factor != evidence.scale_factor || !std::isfinite(trial.cpu_seconds)) continue;
-    sum += trial.cpu_seconds;
+  for (const TrialEvidence* trial : evidence.AllTrials()) {
+    if (trial->scale_factor != evidence.scale_factor || !std::isfinite(trial->cpu_seconds))
+      continue;
+    sum += trial->cpu_seconds;
     count += 1;
   }
   return count > 0 ? sum / count : 0;
@@ -151,7 +152,7 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const std::string more = std::to_string(count);
   NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
                         " --add-simulations " + more,
-                .cost = more + " simulations, up to " +
+                .cost = more + " simulations, about " +
                         base::DurationText(count * TimeOfOne(evidence)) + " of core time",
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};

@@ -202,6 +202,13 @@ const tooltipStyle = {confine: true, borderColor: "#dfe4e8", backgroundColor: "#
 const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<br>");
 
 const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "ok");
+const isOfSearch = (i) => D.trials.purpose[i] !== "confirm";
+// How far trial i is from an objective's aim, and the trials that tell; none where no trial has its metric yet.
+function valuesOf(objective) {
+  const t = D.trials, m = D.metrics.findIndex((metric) => metric.name === objective.metric);
+  return {trials: m < 0 ? [] : doneTrials().filter((i) => t.metrics[m][i] !== null),
+    value: (i) => objective.is_distance ? Math.abs(t.metrics[m][i] - objective.reference) : t.metrics[m][i]};
+}
 
 // At most `limit` of them, evenly through their order, and always those that `keep` names.
 function thin(indices, limit, keep = new Set()) {

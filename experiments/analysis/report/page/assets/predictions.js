@@ -22,7 +22,7 @@ function predictionLine(p) {
   const known = p.numbers.filter((n) => n.mean !== null), usual = known.filter((n) => n.usual);
   return element("li", {}, element("strong", {}, p.name), ": ", (usual.length ? usual : known.slice(0, 1)).map((n) =>
     n.title + " " + predictedRange(n) + shareText(n) + (n.measured === null ? "" : "; measured " + measuredThere(n)))
-    .join("; "), p.ended < p.runs ? " (" + p.ended + " of " + p.runs + " runs)" : "");
+    .join("; "), p.ended < p.runs ? " (" + p.ended + " of " + p.runs + " runs)" : "", p.outdated ? "; by an earlier state of the campaign: predict again" : "");
 }
 
 function predictionLines() {

@@ -16,10 +16,8 @@ function notYet() {
 // The best trial at the finest scale factor, of the experiment that is shown; nothing before there is one.
 function bestSoFar() {
   const o = D.campaign.objective, t = D.trials;
-  const m = D.metrics.findIndex((metric) => metric.name === o.metric);
-  if (m < 0) return null;
-  const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
-  const usable = doneTrials().filter((i) => t.metrics[m][i] !== null && t.scale[i] === D.campaign.scale_factor);
+  const {trials, value} = valuesOf(o);
+  const usable = trials.filter((i) => isOfSearch(i) && t.scale[i] === D.campaign.scale_factor);
   if (!usable.length) return null;
   const i = usable.reduce((a, b) => value(b) < value(a) ? b : a);
   const which = (D.campaign.num_experiments > 1 ? " of " + D.campaign.experiment : "") +

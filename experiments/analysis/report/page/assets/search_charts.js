@@ -1,14 +1,12 @@
 // How the search went: the objective trial by trial, and the time each trial took. Null where no trial has any yet.
 function convergenceChart() {
-  const m = D.metrics.findIndex((metric) => metric.name === D.campaign.objective.metric);
   const t = D.trials, o = D.campaign.objective;
-  const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
-  const all = m < 0 ? [] : doneTrials().filter((i) => t.metrics[m][i] !== null);
+  const {trials: all, value} = valuesOf(o);
   if (!all.length) return null;
   const best = [];
   let least = Infinity;
   for (const i of all) {
-    if (t.scale[i] === D.campaign.scale_factor && value(i) < least) {
+    if (isOfSearch(i) && t.scale[i] === D.campaign.scale_factor && value(i) < least) {
       least = value(i);
       best.push([t.id[i], least]);
     }

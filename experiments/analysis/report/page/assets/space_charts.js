@@ -19,9 +19,7 @@ function spaceChart() {
 
   const option = (width) => {
     const o = answered[colorBy < 0 ? own : colorBy];
-    const m = D.metrics.findIndex((metric) => metric.name === o.metric);
-    const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
-    const usable = doneTrials().filter((i) => t.metrics[m][i] !== null);
+    const {trials: usable, value} = valuesOf(o);
     const shown = thin(usable, 3000, kept);
     const sorted = shown.map(value).sort((a, b) => a - b);
     // The colours end at the 90 % point: beyond it a trial is simply bad, and the legend says so.
@@ -193,7 +191,7 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
       (D.parameters.length > 2 ? "The shadow of the joint region on this plane: dark 50\u00a0%, light 90\u00a0%."
         : "Dark: 50\u00a0% of the posterior, light: 90\u00a0%.") + " Blank: ruled out at that level." +
       (D.headline ? " Star: recommended." : "") +
-      (sets.length ? " Numbers: sets that fit equally." : "") +
+      (!sets.length ? "" : D.headline.fits ? " Numbers: sets that fit equally." : " Numbers: sets that miss as little.") +
       (D.parameters.length > 2 ? " The light area is " + percent(inside) + " of the searched plane: all that these " +
         "two may be, whatever the others are." : "") +
       (zooms ? (D.parameters.length > 2 ? "" : " The patch is for both together.") + " Searched: " + [px, py].map((p) => p.symbol + " " + tick(p.low) + " to " +
