@@ -11,7 +11,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/shell_text.h"
-#include "experiments/analysis/batches/batches.h"
+#include "experiments/analysis/batches/batches_text.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"

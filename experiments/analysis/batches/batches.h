@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/field.h"
-#include "imaging/gray_image.h"
 #include "optimizer/space/scale.h"
 
 namespace talus::analysis {
@@ -128,16 +127,6 @@ BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders
 // their covariance.
 double LevelOfNone(Eigen::MatrixXd difference);
 
-// Share of the ways to deal `first` and `second` out anew in which their means differ by as much as
-// they do, this one among them: all ways where they are few, else 5000 by chance.
-struct PermutationTest {
-  double distance_px = 0;  // SAD of the means
-  double probability = 1;
-  int num_arrangements = 0;
-};
-PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
-                        const std::vector<imaging::GrayImage>& second, std::uint64_t seed);
-
 // The probability of several independent tests together, by Fisher's method: −2 Σ ln p follows χ²
 // of 2 n degrees of freedom. That of one is its own; each by itself would claim more by chance the
 // more there are. `probabilities` in (0, 1].
@@ -162,15 +151,4 @@ BatchVerdict VerdictOf(const BatchComparison& comparison, std::size_t batch);
 bool IsBeyondChance(double probability);
 // How many photographs and numbers of a batch were compared.
 int NumMeasured(const BatchComparison& comparison, const std::string& batch);
-std::string BatchesText(const BatchComparison& comparison);
-// "0.12", of a logarithmic parameter "× 1.3".
-std::string ChangeText(const BatchParameter& parameter, double change);
-std::string DifferenceText(const BatchNumber& number);      // "-5 ± 1.4 mg"
-std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
-// A parameter over the batches, for quality control: the first one's 90 % as a band, and dashed
-// what would matter either way.
-std::string BatchesSvg(const BatchComparison& comparison, const BatchParameter& parameter);
-// All of it as one HTML page that opens offline.
-std::string BatchesPage(const BatchComparison& comparison);
-
 }  // namespace talus::analysis

@@ -4,7 +4,7 @@
 #include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
-#include "experiments/analysis/batches/batches.h"
+#include "experiments/analysis/batches/batches_text.h"
 #include "experiments/analysis/report/page/plain_page.h"
 #include "experiments/rigs/observables/shown_number.h"
 

@@ -1,3 +1,5 @@
+#include "experiments/analysis/batches/batches_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -5,7 +7,6 @@
 #include "base/text/csv.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
-#include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"

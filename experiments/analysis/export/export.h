@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/journal/journal.h"
-
 namespace talus::analysis {
 
 // One line a trial; the head names each column with its unit. What is not defined is empty.

@@ -8,7 +8,6 @@
 #include "base/text/plain_number.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/rigs/case/case_warnings.h"
-#include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"
 
 namespace talus::campaign {

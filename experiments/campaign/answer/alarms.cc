@@ -5,13 +5,10 @@
 
 #include "base/not_known.h"
 #include "base/text/number_text.h"
-#include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/rigs/case/case_warnings.h"
-#include "experiments/rigs/observables/shown_number.h"
-#include "optimizer/search/describe_minimum.h"
 
 namespace talus::campaign {
 namespace {

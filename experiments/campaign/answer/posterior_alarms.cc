@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/alarms.h"
-#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"

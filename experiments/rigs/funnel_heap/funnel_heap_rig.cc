@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/repose.h"

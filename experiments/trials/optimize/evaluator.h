@@ -11,7 +11,6 @@
 #include "experiments/trials/optimize/answer_image.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "optimizer/outputs/field_objective.h"
-#include "optimizer/strategy/strategy.h"
 
 namespace talus::trials {
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "experiments/trials/optimize/optimize_problem.h"
-#include "optimizer/strategy/strategy.h"
 
 namespace talus::trials {
 

@@ -8,7 +8,6 @@
 #include <iostream>
 
 #include "base/text/duration_text.h"
-#include "base/text/number_text.h"
 #include "base/text/printable.h"
 #include "experiments/rigs/case/run_files.h"
 

@@ -11,7 +11,9 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/random.h"
+#include "experiments/analysis/batches/batch_pictures.h"
 #include "experiments/analysis/batches/batch_warnings.h"
+#include "experiments/analysis/batches/batches_text.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "tests/experiments/campaign_fixture.h"
 

@@ -3,7 +3,6 @@
 #include "base/json/json_text.h"
 #include "base/text/base64.h"
 #include "experiments/analysis/compare/knowledge.h"
-#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/page/json_parts.h"
