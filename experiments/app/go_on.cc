@@ -143,10 +143,8 @@ void Afterwards(const std::string& verb, const std::filesystem::path& folder,
   try {
     run();
   } catch (const base::Interrupted&) {
-    throw base::Interrupted("interrupted after the answer was written; `talus " + verb + " " +
-                            base::ShellWord(folder.string()) +
-                            (verb == "next" ? " --simulate" : "") +
-                            "` goes on with what follows it");
+    throw base::Interrupted("interrupted after the answer was written; `talus resume " +
+                            base::ShellWord(folder.string()) + "` goes on with what follows it");
   } catch (const base::Error& error) {
     warn(error.what());
   } catch (const std::filesystem::filesystem_error& error) {

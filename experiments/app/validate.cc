@@ -177,6 +177,9 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
     PrintEngine(spec.engine.command);
     PrintForeignCost(spec);
   }
+  for (const std::string& warning : campaign::EarlierWarnings(spec, record)) {
+    std::cout << "  warning: " << warning << '\n';
+  }
   WarnOfMinutes(spec);
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';

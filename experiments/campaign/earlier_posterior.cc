@@ -1,7 +1,9 @@
 #include "experiments/campaign/earlier_posterior.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -11,6 +13,8 @@
 #include "base/problems.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "base/text/shell_text.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/journal/journal.h"
 #include "optimizer/space/candidate_table.h"
@@ -178,7 +182,57 @@ struct Taker {
   }
 };
 
+std::set<std::filesystem::path> FoldersOf(const CampaignSpec& spec) {
+  std::set<std::filesystem::path> folders;
+  ParameterRanges::Visit(*spec.parameters,
+                         [&](std::string_view, const auto& entry, base::FieldInfo = {}) {
+                           if (!entry) return;
+                           if constexpr (requires { entry->prior->from; }) {
+                             if (entry->prior && entry->prior->from) {
+                               folders.insert(*entry->prior->from);
+                             }
+                           } else if constexpr (requires { entry->from; }) {
+                             folders.insert(entry->from);
+                           }
+                         });
+  return folders;
+}
+
+bool AreSameMeasurements(const journal::ExperimentRecord& a, const journal::ExperimentRecord& b) {
+  if (!a.aehp_png.empty()) return a.aehp_png == b.aehp_png;
+  const auto same = [](const journal::ScalarRecord& x, const journal::ScalarRecord& y) {
+    return x.name == y.name && x.value == y.value && x.standard_error == y.standard_error;
+  };
+  return b.aehp_png.empty() && std::ranges::equal(a.scalars, b.scalars, same);
+}
+
 }  // namespace
+
+std::vector<std::string> EarlierWarnings(const CampaignSpec& spec,
+                                         const journal::CampaignRecord& record) {
+  std::vector<std::string> warnings;
+  for (const std::filesystem::path& folder : FoldersOf(spec)) {
+    journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
+    const journal::CampaignRecord earlier = journal.Campaign();
+    for (const journal::ExperimentRecord& own : record.experiments) {
+      if (std::ranges::none_of(earlier.experiments, [&](const journal::ExperimentRecord& theirs) {
+            return AreSameMeasurements(own, theirs);
+          })) {
+        continue;
+      }
+      warnings.push_back("the prior from " + folder.string() + " knows what \"" + own.name +
+                         "\" has measured, which counts twice now: leave the prior out, and take "
+                         "that campaign's simulations over (calibrate --reuse " +
+                         base::ShellWord(folder.string()) + ")");
+    }
+    if (HasAlarm(ParseAnswer(journal.Progress().result_json),
+                 {AlarmKind::kImplausible, AlarmKind::kDisagree, AlarmKind::kMisses})) {
+      warnings.push_back("the prior from " + folder.string() +
+                         " is of a campaign in which no set fits what was measured");
+    }
+  }
+  return warnings;
+}
 
 CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file, const CampaignSpec* begun) {
   CampaignSpec spec = ReadCampaignSpec(file);

@@ -1,6 +1,9 @@
 // Posteriors of other campaigns as priors of this one ("from": "DIR").
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "base/json/json_file.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
@@ -14,6 +17,11 @@ namespace talus::campaign {
 // (sizes, density of the grains or contact laws differ), or where its parameters are.
 CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file,
                                     const CampaignSpec* begun = nullptr);
+
+// What is to be said of the campaigns that priors are from: one of the same measurements, which
+// then count twice, and one in which no set fits.
+std::vector<std::string> EarlierWarnings(const CampaignSpec& spec,
+                                         const journal::CampaignRecord& record);
 
 // The copying alone, into a spec that is in order; what is wrong goes to `problems`.
 void TakePosteriors(CampaignSpec& spec, const CampaignSpec* begun, base::Problems& problems);

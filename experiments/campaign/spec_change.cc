@@ -125,7 +125,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   change.event = "spec";
   change.asks_more = AsksMore(record.spec_json, SpecText(change.spec));
   change.words = change.asks_more ? "changed in what the search is to find or may spend"
-                                  : "changed in nothing that the search depends on";
+                                  : "changed in what no search depends on";
   if (engine_is_new) NoteMendedEngine(change);
   return change;
 }

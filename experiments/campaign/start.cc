@@ -228,6 +228,7 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
   if (spec.engine.kind == EngineKind::kCommand) trials::RequireOutside(spec.engine.command, root);
   options.check(spec);
   const journal::CampaignRecord record = MakeRecord(spec, file);
+  const std::vector<std::string> doubts = EarlierWarnings(spec, record);
   const std::vector<Reference> references = ReferencesOf(record, spec);
   const auto engine = options.engine ? options.engine() : MakeEngine(spec);
   const Reuser reuser{.spec = spec, .references = references, .engine = *engine};
@@ -239,6 +240,7 @@ void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginO
   const std::vector<journal::TrialRecord> reused = CopyReused(reuser, folder, plan);
   WriteCampaign(folder, record, reused, plan.messages);
   for (const std::string& reading : ReadingTexts(ExperimentsOf(spec))) options.say(reading);
+  for (const std::string& doubt : doubts) options.say("warning: " + doubt);
   for (const std::string& message : plan.messages) options.say(message);
 }
 

@@ -16,7 +16,8 @@ constexpr int kMaxRuns = 1000;            // of a local search, each from anothe
 constexpr int kMaxEvaluations = 1000000;  // the budget is the caller's business
 constexpr double kFirstStep = 0.15;       // of a local search, in the unit cube
 constexpr double kNoValue = 1e100;        // of what fails before anything has a value
-constexpr int kMostOutside = 20000;       // points in one replay that constraints forbid
+constexpr int kMostOutside = 200000;      // points in one replay that constraints forbid
+constexpr int kStarts = 100;              // where the domain is too small to be hit at random
 constexpr double kSmallestStep = 1e-4;    // a local search that moves less has converged
 
 struct Wanted {  // thrown through the search to end it
@@ -88,7 +89,7 @@ class Memory {
 ReplayedSearch::ReplayedSearch(const Domain& domain, ReplayOptions options, std::uint64_t seed)
     : domain_(domain), options_(std::move(options)), seed_(seed) {}
 
-Eigen::VectorXd ReplayedSearch::Start(int run) const {
+Eigen::VectorXd ReplayedSearch::Start(int run) {
   if (run < static_cast<int>(domain_.guesses.size())) {
     return domain_.guesses[static_cast<std::size_t>(run)];
   }
@@ -98,22 +99,24 @@ Eigen::VectorXd ReplayedSearch::Start(int run) const {
     for (double& x : start) x = random.Uniform();
     if (domain_.Contains(start)) return start;
   }
-  return SobolPoint(domain_, run, seed_);
+  if (starts_.empty()) starts_ = SobolInside(domain_, kStarts, seed_);
+  return starts_.empty() ? start : starts_[static_cast<std::size_t>(run) % starts_.size()];
 }
 
-std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
-    std::span<const Eigen::VectorXd> pending) const {
+std::optional<Eigen::VectorXd> ReplayedSearch::Replay(std::span<const Eigen::VectorXd> pending) {
   Memory memory(told_, pending, domain_);
+  is_lost_ = false;
   try {
     // A search may begin elsewhere: BOBYQA shifts a start near a bound, DIRECT has none.
     for (const Eigen::VectorXd& guess : domain_.guesses) memory.Answer(guess);
     for (int run = 0; run < (options_.local ? kMaxRuns : 1); ++run) {
-      if (domain_.feasible) memory.Answer(Start(run));  // a search may never come near
+      const Eigen::VectorXd start = Start(run);
+      if (domain_.feasible && options_.local) memory.Answer(start);  // it may never come near
       const surrogate::SearchTask task{
           .algorithm = options_.algorithm,
           .lower = Eigen::VectorXd::Zero(domain_.num_parameters),
           .upper = Eigen::VectorXd::Ones(domain_.num_parameters),
-          .start = Start(run),
+          .start = start,
           .max_evaluations = kMaxEvaluations,
           .absolute_tolerance = options_.local ? kSmallestStep : 0,
           .initial_step = options_.local ? kFirstStep : 0,
@@ -123,7 +126,9 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
     }
   } catch (const Wanted& wanted) {
     return wanted.point;
-  } catch (const Lost&) {  // what was told is all that it finds
+  } catch (const Lost&) {
+    is_lost_ = true;
+    if (told_.empty() && pending.empty()) return Start(0);
   }
   return std::nullopt;
 }
@@ -142,7 +147,10 @@ std::vector<Proposal> ReplayedSearch::Ask(int count, std::span<const Eigen::Vect
 
 std::optional<StopReason> ReplayedSearch::WhyStop() {
   if (Replay({})) return std::nullopt;
-  return StopReason{.rule = StopRule::kConverged, .name = options_.name};
+  return StopReason{
+      .rule = StopRule::kConverged,
+      .name =
+          options_.name + (is_lost_ ? ", which finds no more points within the constraints," : "")};
 }
 
 Answer ReplayedSearch::Recommend() { return BestObserved(told_, domain_, options_.name); }

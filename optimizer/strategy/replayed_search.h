@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "optimizer/designs/design.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/strategy/strategy.h"
 #include "surrogate/nlopt_minimize.h"
@@ -32,13 +33,15 @@ class ReplayedSearch : public Strategy {
 
  private:
   // The first point the search calls for that is neither told nor pending; none when it has ended.
-  std::optional<Eigen::VectorXd> Replay(std::span<const Eigen::VectorXd> pending) const;
-  Eigen::VectorXd Start(int run) const;
+  std::optional<Eigen::VectorXd> Replay(std::span<const Eigen::VectorXd> pending);
+  Eigen::VectorXd Start(int run);
 
   const Domain domain_;
   const ReplayOptions options_;
   const std::uint64_t seed_;
   std::vector<Observation> told_;
+  Points starts_;         // within a small domain, made when they are needed
+  bool is_lost_ = false;  // the last replay hardly came to the domain
 };
 
 }  // namespace talus::optimizer

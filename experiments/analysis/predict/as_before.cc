@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_file.h"
+#include "base/text/counted.h"
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/analysis/predict/prediction_design.h"
@@ -44,7 +45,15 @@ PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options)
   if (!design || !fs::exists(file)) return options;
   const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
   if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
-  options.num_draws = std::max(design->num_draws, NumberSurrogate::kFewest);
+  // With more of them the sets are others: what was predicted, and compared, would be lost.
+  if (design->num_draws < NumberSurrogate::kFewest) {
+    throw base::ConfigError(
+        root.string() + ": was predicted by " + base::Counted(design->num_draws, "draw") +
+        ", and what goes with a number needs " + std::to_string(NumberSurrogate::kFewest) +
+        "; predict it with --draws " + std::to_string(NumberSurrogate::kFewest) +
+        " first, or move the folder away");
+  }
+  options.num_draws = design->num_draws;
   const auto stage =
       std::ranges::find(design->stages, before.scale_factor, &PredictionStage::scale_factor);
   if (stage != design->stages.end()) options.num_seeds = stage->num_seeds;

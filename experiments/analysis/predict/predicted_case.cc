@@ -123,14 +123,18 @@ void TakePowder(const JointView& view, rigs::Case& rig_case) {
   rig_case.threads = view.spec.threads;
 }
 
-// Without its kind or its sizes the deck would simulate the campaign's own test again.
-void RefuseUntold(const JointView& view, const base::JsonFile& file, const rigs::Case& rig_case) {
-  const std::string untold = campaign::UntoldOf(view.spec, rig_case);
-  if (untold.empty()) return;
-  throw base::ConfigError(file.path.string() + ": the engine's templates have no " + untold +
-                          ", in which it differs from \"" +
-                          campaign::ExperimentsOf(view.spec).front().name +
-                          "\": they would simulate that again; let a template take it");
+// What the deck is not told it takes as it stands: another rig would be the campaign's own again.
+void CheckDeck(const JointView& view, const base::JsonFile& file, PredictedCase& predicted) {
+  const campaign::DeckGap gap = campaign::DeckGapOf(view.spec, predicted.rig_case);
+  if (gap.untold.empty()) return;
+  const std::string lacks = "the engine's templates have no " + gap.untold +
+                            ", in which it differs from \"" + gap.experiment + "\": ";
+  if (gap.is_other_rig) {
+    throw base::ConfigError(file.path.string() + ": " + lacks +
+                            "they would simulate that again; it takes a campaign whose templates "
+                            "are told (calibrate --reuse)");
+  }
+  predicted.notes.push_back(lacks + "it is simulated with those of that test");
 }
 
 void ReadRigCase(const JointView& view, const base::JsonFile& file,
@@ -154,10 +158,10 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
                       view.space.ToNative(Eigen::VectorXd::Constant(
                           static_cast<Eigen::Index>(view.space.Free().size()), 0.5)),
                       view.spec.seed);
-  RefuseUntold(view, file, rig_case);
   rig_case.coarse_graining.scale_factor =
       scale_factor ? *scale_factor : AffordableScale(view, rig_case, budget);
   RequireSimulable(predicted, rig_case.coarse_graining.scale_factor);
+  CheckDeck(view, file, predicted);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ std::string SetText(const Prediction& prediction, int draw,
 
 // Where the uncertainty of a single run comes from.
 std::string SharesText(const PredictedNumber& number, bool many_draws) {
+  if (number.run_sd == 0 && !many_draws) return "the same in every run";
   if (!many_draws) {
     return std::isfinite(number.run_sd) ? "all of it the scatter of a single run"
                                         : "of one run: how far others lie is not known";

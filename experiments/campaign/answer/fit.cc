@@ -167,8 +167,9 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   fit.meets = NumberMeets(measured, fit.off, error, degrees);
   // Of an experiment that no set fits what is close is so all the same.
   if (IsImplausible(answer, experiment.name) && !(fit.off <= kCloseNumber)) fit.meets = Meets::kNo;
-  fit.few_measured = MostByChance(measured.degrees) * measured.standard_error >
-                     MostByChance(degrees) * (std::isfinite(error) ? error : 0);
+  fit.few_measured =
+      measured.degrees > 0 && MostByChance(measured.degrees) * measured.standard_error >
+                                  MostByChance(degrees) * (std::isfinite(error) ? error : 0);
   return fit;
 }
 

@@ -347,8 +347,15 @@ std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
 }
 
 bool AsksMore(const std::string& old_text, const std::string& new_text) {
-  const ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
-  const ordered_json new_spec = ordered_json::parse(new_text);
+  ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
+  ordered_json new_spec = ordered_json::parse(new_text);
+  for (ordered_json* spec : {&old_spec, &new_spec}) {
+    if (spec->contains("budget")) spec->at("budget").erase("sensitivity_share");
+    if (!spec->contains("goal")) continue;
+    // The project may lie elsewhere now.
+    ordered_json& file = spec->at("goal").at("case");
+    file = std::filesystem::path(file.get<std::string>()).filename().string();
+  }
   return std::ranges::any_of(kEndSearch, [&](std::string_view key) {
     return old_spec.value(std::string(key), ordered_json()) !=
            new_spec.value(std::string(key), ordered_json());

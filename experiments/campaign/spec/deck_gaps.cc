@@ -24,6 +24,7 @@ std::string ThingOf(const std::string& name) {
       {"plate_radius", "plate_diameter"},
       {"num_grains", "mass"},
       {"mass", "mass"},
+      {"rig_fill", "mass"},  // of a drum: the one follows from the other
       {"lift_velocity", "lift_velocity"}};
   if (const auto same = kStandsFor.find(name); same != kStandsFor.end()) return same->second;
   if (name.starts_with("rig_camera")) return "";  // pictures are the deck's result, not its input
@@ -57,8 +58,9 @@ std::map<std::string, std::set<std::string>> Differences(const Values& made, con
   // A deck that asks for the kind knows which of its keys it needs, and which are the lifted
   // tube's.
   std::erase_if(differences, [](const auto& difference) {
-    const std::string& thing = difference.first;
-    return thing != kRigKind && (thing.starts_with("rig_") || IsOfLiftedTube(thing));
+    const auto& [thing, names] = difference;
+    const bool is_drums = names == std::set<std::string>{"rig_fill"};
+    return thing != kRigKind && (thing.starts_with("rig_") || IsOfLiftedTube(thing) || is_drums);
   });
   return differences;
 }
@@ -70,7 +72,7 @@ std::vector<std::string> Untold(const trials::TemplateFolder& templates,
   std::vector<std::string> untold;
   for (auto& [thing, names] :
        Differences(trials::CaseValues(made).scalars, trials::CaseValues(test).scalars)) {
-    if (thing == "mass") names.insert("grains");
+    if (thing == "mass") names.insert({"mass", "num_grains", "grains", "rig_fill"});
     const bool is_taken = std::ranges::any_of(
         names, [&](const std::string& name) { return templates.Uses(command, name); });
     if (!is_taken) untold.push_back("{{ " + thing + " }}");
@@ -101,11 +103,19 @@ void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems) {
   }
 }
 
-std::string UntoldOf(const CampaignSpec& spec, const rigs::Case& rig_case) {
-  if (spec.engine.kind != EngineKind::kCommand) return "";
+DeckGap DeckGapOf(const CampaignSpec& spec, const rigs::Case& rig_case) {
+  if (spec.engine.kind != EngineKind::kCommand) return {};
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  const auto kin = std::ranges::find_if(
+      experiments, [&](const ExperimentSpec& e) { return KindOf(e) == rig_case.rig.kind; });
+  const auto nearest = kin == experiments.end() ? experiments.begin() : kin;
+  const rigs::Case test = TypicalCase(spec, static_cast<int>(nearest - experiments.begin()),
+                                      rig_case.coarse_graining.scale_factor);
   const trials::TemplateFolder templates(*spec.engine.command.templates);
-  const rigs::Case first = TypicalCase(spec, 0, spec.coarse_graining.Levels().front());
-  return base::Listed(Untold(templates, spec.engine.command, first, rig_case));
+  return {.experiment = nearest->name,
+          .untold = base::Listed(Untold(templates, spec.engine.command, test, rig_case)),
+          .is_other_rig = kin == experiments.end() &&
+                          !templates.Uses(spec.engine.command, std::string(kRigKind))};
 }
 
 std::vector<std::string> DeckWarnings(const CampaignSpec& spec) {

@@ -14,9 +14,14 @@ namespace talus::campaign {
 // simulated again. Nothing where the engine is ours.
 void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems);
 
-// "{{ rig_kind }} and {{ mass }}": in which a case, as of a process, differs from the campaign's
-// first experiment and no template takes. Empty where the engine is ours.
-std::string UntoldOf(const CampaignSpec& spec, const rigs::Case& rig_case);
+// In what a case, as of a process, differs from the campaign's own test of its rig, and no template
+// takes.
+struct DeckGap {
+  std::string experiment{};  // that test, or the first where there is none of this rig
+  std::string untold{};      // "{{ mass }} and {{ rig_kind }}"; empty: all is told, or our engine's
+  bool is_other_rig = false;  // of which the deck is not told: it would simulate that test again
+};
+DeckGap DeckGapOf(const CampaignSpec& spec, const rigs::Case& rig_case);
 
 // What is to be said of a deck that takes no seed, nor grains in place: repeated trials may be one
 // run again; and of one that takes no grain size for several scale factors. None where the engine

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "imaging/photos/plate/edge_blur.h"
 #include "imaging/photos/plate/plate_corner.h"
 #include "imaging/photos/plate/side_lines.h"
@@ -45,23 +46,37 @@ std::vector<EdgePoint> FindLower(const TiltedView& tilted, const StraightSides& 
   return lower;
 }
 
+// How bright a column of the plate is `up` from a point [-].
+double BrightnessAt(const TiltedView& tilted, const EdgePoint& middle, double along, double up) {
+  return tilted.At(tilted.Point(middle, along, up));
+}
+
+// By how much the grains are brighter than the plate [-], whose top is at `middle`, about. Holes
+// between grains are not theirs: the median of the columns has none.
+double StepOf(const TiltedView& tilted, const EdgePoint& middle, double width) {
+  std::vector<double> steps;
+  for (double along = -0.45 * width; along <= 0.45 * width; along += 1) {
+    const auto at = [&](double up) { return BrightnessAt(tilted, middle, along, up); };
+    if (at(6) < tilted.threshold()) steps.push_back((at(6) + at(7) - at(-6) - at(-7)) / 2);
+  }
+  return steps.empty() ? 0 : base::Median(steps);
+}
+
 // The light between the plate and the grains on it, in one column of the plate.
 struct Gap {
   double light = 0;   // ∫ brightness dv, 1 = the background [px]: its thickness
   double moment = 0;  // ∫ brightness v dv [px²], v up from the middle that was guessed
-  double step = 0;    // by which the grains are brighter than the plate [-]
 };
 
-// Nothing where the light is no narrow line in the dark.
-std::optional<Gap> FindGap(const TiltedView& tilted, const EdgePoint& middle, double along) {
-  const auto at = [&](double up) { return tilted.At(tilted.Point(middle, along, up)); };
-  // Grains need not be as dark as the plate.
-  const double plate = (at(-7) + at(-6)) / 2;
-  const double grains = (at(6) + at(7)) / 2;
+// Nothing where the light is no narrow line in the dark. `step`: StepOf.
+std::optional<Gap> FindGap(const TiltedView& tilted, const EdgePoint& middle, double along,
+                           double step) {
+  const auto at = [&](double up) { return BrightnessAt(tilted, middle, along, up); };
+  const double between = (at(-7) + at(-6) + at(6) + at(7)) / 4;
   constexpr double kStep = 0.5;
-  Gap gap{.step = grains - plate};
+  Gap gap;
   for (double up = -5; up <= 5; up += kStep) {
-    const double dark = up < 0 ? plate : up > 0 ? grains : (plate + grains) / 2;
+    const double dark = between + (up < 0 ? -step / 2 : up > 0 ? step / 2 : 0);
     const double light = (at(up) - dark) / (1 - dark) * kStep;
     gap.light += light;
     gap.moment += light * up;
@@ -77,28 +92,27 @@ std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& mid
   constexpr double kGroup = 5;          // columns
   constexpr double kLeastLight = 0.03;  // mean thickness that is told from noise [px]
   constexpr double kFarthest = 3;       // from the guess, which knows the corners [px]
-  double groups = 0, light = 0, moment = 0, squares = 0, step = 0;
+  const double step = StepOf(tilted, middle, width);
+  double groups = 0, light = 0, moment = 0, squares = 0;
   for (double along = -0.45 * width; along <= 0.45 * width; along += kGroup) {
     Gap group;
     int columns = 0;
     for (double column = 0; column < kGroup; ++column) {
-      const std::optional<Gap> gap = FindGap(tilted, middle, along + column);
+      const std::optional<Gap> gap = FindGap(tilted, middle, along + column, step);
       if (!gap) continue;
       ++columns;
       group.light += gap->light;
       group.moment += gap->moment;
-      group.step += gap->step;
     }
     if (columns < kGroup) continue;
     groups += 1;
     light += group.light / kGroup;
     moment += group.moment / kGroup;
-    step += group.step / kGroup;
     squares += group.light * group.light / kGroup / kGroup;
   }
   if (groups < 5 || light < kLeastLight * groups) return std::nullopt;
   // A step that is not where it was guessed counts as light, too.
-  if (light < 2 * kFarthest * std::abs(step)) return std::nullopt;
+  if (light < 2 * kFarthest * std::abs(step) * groups) return std::nullopt;
   const double up = moment / light - squares / 2 / light;
   return std::abs(up) < kFarthest ? std::optional(tilted.Point(middle, 0, up)) : std::nullopt;
 }

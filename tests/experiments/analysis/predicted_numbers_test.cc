@@ -340,5 +340,10 @@ TEST(Regimes, AreReadFromAResultAndNoneIsFoundWhereItHasNone) {
   EXPECT_FALSE(RegimeIn(folder / "absent").has_value());
 }
 
+TEST(Spread, ADrawCountsByItsWeight) {
+  const Spread spread({.runs = {{1}, {5}}, .weight = {3, 1}});
+  EXPECT_NEAR(spread.mean(), 2, 1e-12);
+}
+
 }  // namespace predicted_numbers_test
 }  // namespace talus::analysis

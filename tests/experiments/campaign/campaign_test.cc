@@ -9,6 +9,7 @@
 #include "experiments/analysis/export/export.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/status.h"
 #include "experiments/journal/database.h"
 #include "tests/error_in.h"
@@ -376,6 +377,50 @@ TEST_F(CampaignTest, ASearchThatARuleHasEndedIsNotResumedUnlessMoreIsAskedFor) {
             stop.Text());
   RunFake(folder, {}, {.add_simulations = 5});
   EXPECT_GE(Trials(folder).size(), 5u);
+}
+
+TEST_F(CampaignTest, ReplicatesOfManyAtOnceKeepToTheBudget) {
+  const auto folder = Begin(R"(, "budget": {"simulations": 6}, "replicates": 2, "workers": 8,
+    "confirm": {"candidates": 0})");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(Trials(folder).size(), 6u);
+}
+
+TEST_F(CampaignTest, NothingIsConfirmedBeforeTheLastTrialOfTheSearchIsTold) {
+  const auto folder = Begin(R"(, "budget": {"simulations": 8}, "workers": 3,
+    "confirm": {"candidates": 1, "ends": false, "replicates": 2})");
+  EXPECT_EQ(RunFake(folder, {.slow_third = 2}), CampaignEnd::kFinished);
+  const Answer answer = Result(folder);
+  int confirming = 0;
+  for (const journal::TrialRecord& trial : Trials(folder)) {
+    if (trial.IsOfSearch()) continue;
+    ++confirming;
+    EXPECT_TRUE(IsRecommended(answer, trial.native)) << trial.id;
+  }
+  EXPECT_EQ(confirming, 2);
+}
+
+TEST_F(CampaignTest, AFailedTrialIsNotTriedAThirdTime) {
+  const auto folder = Begin(R"(, "budget": {"simulations": 8}, "noise": {"replicates": 2},
+    "workers": 1, "confirm": {"candidates": 1, "replicates": 3}, "retry_failed": true)");
+  RunFake(folder, {.fail_at_low = true});
+  int failed = 0;
+  for (const journal::TrialRecord& trial : Trials(folder)) {
+    if (trial.status != journal::TrialStatus::kFailed) continue;
+    ++failed;
+    EXPECT_EQ(trial.attempts, 2);
+  }
+  EXPECT_GT(failed, 0);
+}
+
+// They tell how well the answer is met, which what found it may not know.
+TEST_F(CampaignTest, ConfirmingTrialsAreNotToldToTheModel) {
+  const auto folder = Finished(R"(, "budget": {"simulations": 8}, "noise": {"replicates": 2},
+    "workers": 1, "confirm": {"candidates": 1, "replicates": 3})");
+  const auto trials = Trials(folder);
+  const auto searched = std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch);
+  ASSERT_LT(searched, std::ssize(trials));
+  EXPECT_EQ(std::ssize(ReadJointView(folder).observations), searched);
 }
 
 }  // namespace campaign_test

@@ -4,10 +4,14 @@
 
 #include <fstream>
 
+#include "base/json/json_file.h"
 #include "experiments/analysis/card/card.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/nuisances.h"
+#include "experiments/campaign/earlier_posterior.h"
+#include "experiments/campaign/spec/parameter_prior.h"
+#include "experiments/campaign/start.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -137,6 +141,20 @@ TEST_F(Priors, AnEarlierPosteriorJoinsTwoCampaigns) {
   EXPECT_GT(first.parameters[1].Width(), 0.8);
 }
 
+// A campaign on the same photographs was narrowed by what it had itself found.
+TEST_F(Priors, AnEarlierPosteriorOfTheSameMeasurementsCountsTwice) {
+  AnswerOf("first", {});
+  const auto warnings = [&](const std::string& name, Written w) {
+    w.more_parameters = R"(, "prior": {"from": "../first"})";
+    BeginWith(name, w);
+    const auto file = base::ReadJsonFile(scratch_.path() / (name + "_in") / "spec.json");
+    const CampaignSpec spec = ReadSpecWithPosteriors(file);
+    return EarlierWarnings(spec, MakeRecord(spec, file));
+  };
+  EXPECT_THAT(warnings("again", {}), testing::ElementsAre(HasSubstr("which counts twice now")));
+  EXPECT_THAT(warnings("other", {.experiments = kTapped}), testing::IsEmpty());
+}
+
 TEST_F(Priors, OfAnotherPowderOrOtherParametersAreRefused) {
   AnswerOf("first", {});
   const auto error_of = [&](Written w) {
@@ -206,6 +224,15 @@ TEST_F(Priors, ADeterminedNuisanceIsCalledSo) {
                           .stop_share = 0});
   EXPECT_THAT(NuisanceText(answer.parameters[1], "rolling_friction"),
               HasSubstr("rolling_friction: determined, 0."));
+}
+
+TEST(Prior, AFactorIsOneStandardDeviationOfTheLogarithm) {
+  const ParameterPrior<base::Dimension::kNone> prior{.median = 0.3, .factor = 2};
+  const auto normal = prior.Normal();
+  ASSERT_TRUE(normal.has_value());
+  EXPECT_TRUE(normal->of_logarithm);
+  EXPECT_DOUBLE_EQ(normal->mean, std::log(0.3));
+  EXPECT_DOUBLE_EQ(normal->sd, std::log(2.0));
 }
 
 }  // namespace priors_test

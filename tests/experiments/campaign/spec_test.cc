@@ -7,8 +7,10 @@
 
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/deck_gaps.h"
+#include "experiments/campaign/spec/measured_numbers.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "tests/error_in.h"
@@ -177,12 +179,19 @@ TEST(Spec, ADeckIsToldOfWhatMakesAProcessAnotherTest) {
   rigs::Case other = TypicalCase(spec, 0, spec.coarse_graining.Levels().front());
   const auto untold = [&](const char* deck) {
     std::ofstream(scratch.path() / "run.sh") << deck;
-    return UntoldOf(spec, other);
+    return DeckGapOf(spec, other).untold;
   };
   EXPECT_EQ(untold("{{ seed }}"), "");
+  other.powder.mass *= 2;
+  EXPECT_EQ(untold("{{ num_grains }}"), "");
+  EXPECT_THAT(untold("{{ seed }}"), HasSubstr("{{ mass }}"));
+  EXPECT_FALSE(DeckGapOf(spec, other).is_other_rig);
+  other.powder.mass /= 2;
   other.rig.kind = rigs::RigKind::kDrum;
   EXPECT_THAT(untold("{{ seed }}"), HasSubstr("{{ rig_kind }}"));
+  EXPECT_TRUE(DeckGapOf(spec, other).is_other_rig);
   EXPECT_EQ(untold("{{ rig_kind }}"), "");
+  EXPECT_FALSE(DeckGapOf(spec, other).is_other_rig);
   spec.engine.kind = EngineKind::kTalus;
   EXPECT_EQ(untold("{{ seed }}"), "");
 }
@@ -345,6 +354,51 @@ TEST(Spec, TheShippedSchemaIsTheParsers) {
   const std::string schema = base::FileSchema<CampaignSpec>("talus campaign").dump(2) + "\n";
   if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
   EXPECT_TRUE(base::ReadFile(path) == schema) << path << ": TALUS_UPDATE_SCHEMAS=1 makes it anew";
+}
+
+constexpr const char* kWeighed = R"({
+  "experiments": [{"name": "drum", "angle": {"values": ["32 deg", "34 deg", "36 deg"]}, "weight": 3,
+                   "rig": {"kind": "drum", "diameter": "40 mm", "width": "8 mm", "speed": "15 rpm",
+                           "fill": 0.3}}],
+  "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "2 mm"}},
+  "coarse_graining": {"surface_energy_exponent": 2.5},
+  "constraints": [{"terms": [{"parameter": "rolling_friction"},
+                             {"parameter": "sliding_friction", "factor": -1}], "at_most": 0}],
+  "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5},
+                 "rolling_friction": {"min": 0.0, "max": 0.5}}})";
+
+TEST(Spec, ConstraintsBoundWhatIsSearched) {
+  const optimizer::ParameterSpace space = SpaceOf(Read(kWeighed));
+  ASSERT_EQ(space.constraints.size(), 1u);
+  const optimizer::Domain domain = space.MakeDomain();
+  EXPECT_TRUE(domain.Contains(Eigen::Vector2d(1, 0.9)));     // 0.45 below 0.5
+  EXPECT_FALSE(domain.Contains(Eigen::Vector2d(0.5, 0.9)));  // 0.45 above 0.3
+}
+
+TEST(Spec, TrialsHaveItsExponentAndAnglesTheirErrorInDegrees) {
+  const CampaignSpec spec = Read(kWeighed);
+  EXPECT_EQ(TypicalCase(spec, 0, 1).coarse_graining.surface_energy_exponent, 2.5);
+  const ScalarSpec angle = ScalarsOf(ExperimentsOf(spec)[0]).front();
+  EXPECT_NEAR(angle.value, 34, 1e-9);
+  EXPECT_NEAR(angle.standard_error, 2 / std::sqrt(3.0), 1e-9);
+  EXPECT_EQ(angle.degrees, 2);
+}
+
+TEST(Targets, HaveTheErrorOfFewValuesAndTheWeightOfTheSpec) {
+  const CampaignSpec spec = Read(kWeighed);
+  journal::CampaignRecord record;
+  record.experiments.resize(1);
+  record.experiments[0].scalars = {
+      {.name = "angle_deg", .value = 34, .standard_error = 1.2, .degrees = 2}};
+  const std::vector<Reference> references{
+      Reference({}, {.scalars = record.experiments[0].scalars})};
+  const auto targets = TargetsOf(spec, record, references);
+  ASSERT_EQ(targets.size(), 1u);
+  EXPECT_EQ(targets[0].weight, 3);
+  ASSERT_EQ(targets[0].scalars.size(), 1u);
+  EXPECT_EQ(targets[0].scalars[0].standard_error, record.experiments[0].scalars[0].NormalError());
+  EXPECT_GT(targets[0].scalars[0].standard_error, 1.3);
+  EXPECT_NEAR(targets[0].scalars[0].high, 90, 1e-9);
 }
 
 }  // namespace spec_test

@@ -255,5 +255,13 @@ TEST(FunnelHeap, ARimKeepsALayerThatTheHeapStandsOn) {
   EXPECT_NEAR(angles[1], angles[0], 5);  // single heaps scatter by some two degrees
 }
 
+// It starts and ends slower: the rate is that from a fifth to three fifths of what passes.
+TEST(Flow, TheRateIsThatOfItsMiddle) {
+  const std::vector<Passed> flow{{0, 0}, {0.1, 0.2}, {0.15, 0.6}, {0.35, 1}};
+  const auto readings = FlowReadings(flow, 1, 1, "it jams");
+  EXPECT_NEAR(readings[1].value, 0.4 / 0.05, 1e-9);
+  EXPECT_NEAR(readings[0].value, 0.15 + 0.2 * 0.35 / 0.4, 1e-9);
+}
+
 }  // namespace flowing_rigs_test
 }  // namespace talus::rigs

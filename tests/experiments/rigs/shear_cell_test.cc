@@ -187,5 +187,14 @@ TEST(YieldLine, OfPointsOnALineIsThatLine) {
   EXPECT_FALSE(YieldLineOf({points.data(), 1}).has_value());
 }
 
+TEST(ShearCell, TheLidPressesWithTheStressThatIsStated) {
+  const Case c = Cell(0.5);
+  const auto rig = MakeRig(c);
+  while (rig->phase_name() != "shearing 1") ASSERT_TRUE(rig->Advance());
+  ASSERT_EQ(rig->simulation().Presses().size(), 1u);
+  const double area = std::numbers::pi / 4 * std::pow(c.rig.shear_cell.diameter, 2);
+  EXPECT_NEAR(rig->simulation().Presses()[0].force, c.rig.shear_cell.stresses[0] * area, 1e-12);
+}
+
 }  // namespace shear_cell_test
 }  // namespace talus::rigs

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -166,6 +167,27 @@ TEST(Layer, OfOneGrainIsItsDisc) {
   EXPECT_NEAR(layer.thickness, std::numbers::pi / 16 * d * (1.0 / 2 + 1.0 / 3), 2e-3 * d);
   EXPECT_TRUE(window.Holds(grain));
   EXPECT_EQ(LayerOf({}, window, d).coverage, 0);
+}
+
+TEST(Spreading, TheLayerIsReadAwayFromEndsAndSides) {
+  const Case c = Spread(2.5e-3);
+  const auto rig = Ran(c);
+  const double from = 0.15 * 0.024, to = 0.85 * 0.024, half_width = 0.003 - 1.1e-3;
+  double mass = 0;
+  double volume[3] = {}, moment[3] = {};
+  for (const engine::Particle& p : rig->Grains()) {
+    const bool is_seen = p.position.x >= from && p.position.x < to &&
+                         std::abs(p.position.y) < half_width && p.position.z > 0;
+    if (!is_seen) continue;
+    const double cube = std::pow(p.radius, 3);
+    const auto third = static_cast<std::size_t>(3 * (p.position.x - from) / (to - from));
+    mass += kDensity * 4 / 3 * std::numbers::pi * cube;
+    volume[third] += cube;
+    moment[third] += cube * p.radius;
+  }
+  const double area = (to - from) * 2 * half_width;
+  EXPECT_NEAR(Value(c, *rig, "mass_per_area_kg_per_m2"), mass / area, 1e-9 * mass / area);
+  EXPECT_NEAR(Value(c, *rig, "size_drift"), moment[2] / volume[2] / (moment[0] / volume[0]), 1e-9);
 }
 
 }  // namespace spreading_test

@@ -166,16 +166,15 @@ function nextTable() {
   const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
   return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
     D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run " + command + " again.") : null,
-    table("Next steps", [{title: "Candidate", text: true, wide: true},
+    table("Next steps", [{title: "Candidate", text: true, wide: true}, {title: "Costs", text: true},
         ...(goal ? [{title: goal.title + " of " + goal.process + " known within ±",
                      unit: "now " + formatUnit(goal.half_width, goal.unit, 2)}] : []),
         {title: "Leaves", unit: goal ? "of the goal's width" : "of the ranges' volume"}, {title: "Expected", unit: "bits"},
-        ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
-        {title: "Costs", text: true}],
-      D.next.candidates.map((c) => [c.name + ": " + c.what,
+        ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])}))],
+      D.next.candidates.map((c) => [c.name + ": " + c.what, cost(c),
         ...(goal ? [known(c, c.goal, (x) => formatUnit(x, goal.unit, 2))] : []),
         known(c, c.remaining, percent), known(c, c.bits, (x) => format(x, 2)),
-        ...D.parameters.map((p, k) => known(c, c.bits, () => widthText(p, c.width[k]))), cost(c)])),
+        ...D.parameters.map((p, k) => known(c, c.bits, () => widthText(p, c.width[k])))])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.needs_simulations)
         ? " ?: " + command + " --simulate runs the simulations that tell." : ""))),
@@ -230,10 +229,12 @@ function answerSection() {
   const heaps = shown.length > 1 ? [element("div", {class: "grid two"}, shown)] : shown;
   const oneHeap = h.representatives.filter((set) => set.uri).length === 1;
   const said = verdict(h), seen = heapPairs();
+  const isWide = D.parameters.length > 2;  // half the page would cut the last columns
   return [said && seen ? element("div", {class: "grid first-screen"}, said, seen) : said || seen, alarms(),
     predictionLines(),
-    element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), widths(h), oneHeap ? heaps : null),
+    element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), isWide ? null : widths(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
+    isWide ? widths(h) : null,
     branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), sensitivity(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
       element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
