@@ -306,10 +306,10 @@ class ReportInABrowser(unittest.TestCase):
             "return [...document.querySelectorAll('#next-table tbody tr')].map((r) => "
             "[...r.cells].map((c) => c.textContent))")
         self.assertEqual(len(rows), len(table["candidates"]))
-        self.assertEqual((rows[0][0], rows[0][2]), ("wide plate: carry it out in 3 runs", "2.5"))
-        self.assertRegex(rows[0][1], r"^6\.3\s%$")  # of the ranges' volume
-        self.assertEqual(rows[0][-1], "38 simulations, 2.50 min")
-        self.assertEqual(rows[-1][1], "?")  # nothing of it has been simulated
+        self.assertEqual((rows[0][0], rows[0][3]), ("wide plate: carry it out in 3 runs", "2.5"))
+        self.assertRegex(rows[0][2], r"^6\.3\s%$")  # of the ranges' volume
+        self.assertEqual(rows[0][1], "38 simulations, 2.50 min")
+        self.assertEqual(rows[-1][2], "?")  # nothing of it has been simulated
         figure = self.driver.find_element(By.CSS_SELECTOR, "#told-apart figure")
         self.assertIn("first μₜ 0.150, μᵣ 0.500", figure.text)
         self.assertEqual(figure.find_element(By.TAG_NAME, "img").get_property("naturalWidth"), 320)

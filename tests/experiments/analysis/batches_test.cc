@@ -379,5 +379,23 @@ TEST_F(BatchesTest, OtherParametersAreRefused) {
   }
 }
 
+// Two numbers of the same heaps: the smaller chance of them is that of two looks.
+TEST(BatchVerdict, SeveralNumbersOfATestAreSeveralLooks) {
+  BatchComparison c;
+  c.batches = {"a", "b"};
+  c.together.resize(1);
+  for (const char* name : {"mass_fallen_kg", "height_m"}) {
+    BatchNumber number;
+    number.batch = "b";
+    number.experiment = "heap";
+    number.name = name;
+    number.probability = 0.03;
+    c.numbers.push_back(number);
+  }
+  const BatchVerdict verdict = VerdictOf(c, 1);
+  EXPECT_NEAR(verdict.measured_by_chance, 0.06, 1e-12);
+  EXPECT_FALSE(verdict.is_found);
+}
+
 }  // namespace batches_test
 }  // namespace talus::analysis

@@ -345,5 +345,14 @@ TEST(Spread, ADrawCountsByItsWeight) {
   EXPECT_NEAR(spread.mean(), 2, 1e-12);
 }
 
+TEST(Spread, TheSurrogatesErrorIsNoShareOfTheParameters) {
+  const surrogate::Predictions sets{.mean = Eigen::Vector2d(0, 2),
+                                    .variance = Eigen::Vector2d(1, 1)};
+  const Spread spread(sets, 0.5);
+  const double parameters = spread.parameters_sd() * spread.parameters_sd();
+  const double surrogate = kOverconfidence * kOverconfidence;
+  EXPECT_NEAR(spread.ParametersShare(), parameters / (parameters + surrogate + 0.25), 1e-12);
+}
+
 }  // namespace predicted_numbers_test
 }  // namespace talus::analysis

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
 
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/journal.h"
@@ -412,6 +414,42 @@ TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
               SizeIs(1));  // a point
   EXPECT_EQ((ConfirmOptions{.candidates = 1, .replicates = 3}.MostTrials()), 9);
   EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
+}
+
+// √(4.2² + 3.5²) for one heap and √(4.2² + 3.5²/3) for three: without scatter 4.2.
+TEST(Alarms, TheScatterOfAMeanProfileIsTakenOutOfIt) {
+  Answer answer = ConfirmedAt(std::hypot(4.2, 3.5));
+  HeapOf(answer).profile_sad_mm2 = std::sqrt(4.2 * 4.2 + 3.5 * 3.5 / 3);
+  EXPECT_NEAR(SadWithoutScatter(HeapOf(answer)), 4.2, 1e-9);
+}
+
+TEST(Alarms, AnAnswerThreeStandardDeviationsOffContradictsItsPrior) {
+  Answer answer;
+  answer.parameters = {{.name = "friction", .prior = ResultPrior{.text = "0.3 ± 0.02"}}};
+  for (const double offset : {-2.9, 2.9}) {
+    answer.parameters[0].prior->offset = offset;
+    EXPECT_THAT(PriorAlarms(answer), IsEmpty());
+  }
+  for (const double offset : {-3.1, 3.1}) {
+    answer.parameters[0].prior->offset = offset;
+    EXPECT_THAT(PriorAlarms(answer), SizeIs(1));
+  }
+}
+
+TEST(Headline, HalfOfARangeIsARegionAndNotOpen) {
+  Answer answer;
+  answer.parameters = {{.name = "friction",
+                        .value = 0.5,
+                        .searched_low = 0,
+                        .searched_high = 1,
+                        .credible_low = 0.1,
+                        .credible_high = 0.8}};
+  answer.correlation = {{1}};
+  answer.posterior.emplace().branches.resize(1);
+  answer.confirmed.resize(1);
+  EXPECT_THAT(HeadlineText(answer), testing::Not(HasSubstr("do not determine")));
+  answer.parameters[0].credible_high = 0.91;
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("do not determine friction"));
 }
 
 }  // namespace alarms_test

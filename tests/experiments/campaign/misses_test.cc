@@ -299,5 +299,27 @@ TEST(HeadlineOfAPrior, WhatWasKnownBeforehandIsNotCalledDetermined) {
   EXPECT_THAT(HeadlineText(answer), HasSubstr("sliding_friction 0.451 (90 %"));
 }
 
+// 1.5 noise floors are 6 of the mean profile's 8 mm²; 2 beyond them are 4.6 of the model's standard
+// errors where one simulation scatters by 0.75, and 2.3 where it scatters by 1.5.
+TEST(Misses, AnImageIsMissedFromThreeStandardErrorsOn) {
+  Answer answer = ConfirmedAt(8);
+  HeapOf(answer).profile_sad_mm2 = 8;
+  HeapOf(answer).over_floor = 2;
+  answer.experiments[0].noise_sd = 0.75;
+  EXPECT_THAT(MissAlarms(answer), SizeIs(1));
+  answer.experiments[0].noise_sd = 1.5;
+  EXPECT_THAT(MissAlarms(answer), IsEmpty());
+}
+
+TEST(Misses, ASetOfCoarserGrainsIsNotSaidToMiss) {
+  Answer answer = ConfirmedAt(4);
+  answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
+  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 54, .standard_error = 0}};
+  answer.conditions.scale_factor = 1;
+  EXPECT_TRUE(Misses(answer, answer.confirmed[0]));
+  answer.confirmed[0].scale_factor = 2;
+  EXPECT_FALSE(Misses(answer, answer.confirmed[0]));
+}
+
 }  // namespace misses_test
 }  // namespace talus::campaign

@@ -235,5 +235,17 @@ TEST(Prior, AFactorIsOneStandardDeviationOfTheLogarithm) {
   EXPECT_DOUBLE_EQ(normal->sd, std::log(2.0));
 }
 
+TEST(NuisanceTexts, HalfOfThePriorsWidthIsDetermined) {
+  ResultParameter p{.name = "e",
+                    .searched_low = 0,
+                    .searched_high = 1,
+                    .credible_low = 0.3,
+                    .credible_high = 0.3 + 0.44};
+  p.nuisance.emplace();
+  EXPECT_THAT(NuisanceText(p, "e"), HasSubstr("e: determined"));
+  p.credible_high = 0.3 + 0.46;  // a flat prior's 90 % are 0.9
+  EXPECT_THAT(NuisanceText(p, "e"), HasSubstr("e: not determined"));
+}
+
 }  // namespace priors_test
 }  // namespace talus::campaign

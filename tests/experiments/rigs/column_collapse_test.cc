@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiments/rigs/phased/surface.h"
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
@@ -59,6 +60,19 @@ TEST(ColumnCollapse, AColumnThatStandsHasRunOutByNothingAndHasNoAngle) {
   EXPECT_EQ(Value(c, *rig, "runout_m"), 0);
   const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
   EXPECT_EQ(result["undefined"]["angle_deg"], "the column stands");
+}
+
+// From the end wall to the front, without a fifth at either end.
+TEST(ColumnCollapse, TheAngleIsThatOfTheMiddleOfTheSlope) {
+  const Case c = Collapse(0.9e-3);
+  const auto rig = Ran(c);
+  const std::vector<engine::Particle> grains = rig->Grains();
+  const double wall = -0.006;
+  const double reach = 0.006 + Value(c, *rig, "runout_m") - wall;
+  const auto surface =
+      SurfaceOf(grains, {.from = wall + 0.2 * reach, .to = wall + 0.8 * reach, .width = 1e-3});
+  const double slope = std::abs(SlopeOf(surface).value());
+  EXPECT_NEAR(Value(c, *rig, "angle_deg"), SlopeAngle(slope), 0.5);
 }
 
 }  // namespace column_collapse_test

@@ -263,5 +263,15 @@ TEST(Flow, TheRateIsThatOfItsMiddle) {
   EXPECT_NEAR(readings[0].value, 0.15 + 0.2 * 0.35 / 0.4, 1e-9);
 }
 
+TEST(OrificeFlow, AnArchIsLookedAtForItsTime) {
+  Case c = CaseOf(RigKind::kOrificeFlow, 0.5, 0.05, 0.5e-3);
+  c.rig.orifice_flow = {.diameter = 0.016, .orifice = 0.002, .arch_time = 0.3};
+  c.materials.walls = WallMaterial{.sliding_friction = 0};
+  const auto rig = Ran(c);
+  const PhaseRecord& discharging = rig->RecordOf("discharging");
+  EXPECT_EQ(discharging.reason, PhaseEnd::kAtRest);
+  EXPECT_GE(discharging.end_time - discharging.start_time, 0.3);
+}
+
 }  // namespace flowing_rigs_test
 }  // namespace talus::rigs

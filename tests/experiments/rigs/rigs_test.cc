@@ -14,6 +14,8 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/rigs/observables/shown_number.h"
+#include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/rig_run.h"
@@ -437,6 +439,41 @@ TEST(Surface, AQuantileIsOfTheMassAndNotOfTheNumber) {
   const auto along = [](const engine::Particle& p) { return p.position.x; };
   EXPECT_EQ(MassQuantile(grains, 0.25, along), 2);
   EXPECT_EQ(MassQuantile(grains, 0.5, along), 3);
+}
+
+TEST(Surface, TwoPlacesAreNoSlope) {
+  const std::vector<SurfacePoint> surface{{.x = 0, .top = 0}, {.x = 1, .top = 1}};
+  EXPECT_FALSE(SlopeOf(surface).has_value());
+}
+
+TEST(EstimateOfACase, TapsOfTheFillingTakeTheirTime) {
+  Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, 0.5e-3);
+  const double without = SimulatedTime(c, 1);
+  c.filling.taps = TapRule{.count = 10, .interval = 0.2};
+  EXPECT_NEAR(SimulatedTime(c, 1) - without, 2, 1e-12);
+}
+
+TEST(TiltingBox, WhatLeavesOverTheLipIsWeighed) {
+  Case c = CaseOf(RigKind::kTiltingBox, 0.5, 0.1, 0.4e-3);
+  c.rig.tilting_box = {.length = 0.012, .width = 0.006, .lip_height = 0.0, .rate = 1.5};
+  const auto rig = Ran(c);
+  const double left = Value(c, *rig, "mass_left_kg");
+  double stays = 0;
+  for (const engine::Particle& p : rig->simulation().Particles()) {
+    EXPECT_LT(p.position.x, 0.006 + 1.2e-3);
+    stays += kDensity * 4 / 3 * std::numbers::pi * std::pow(p.radius, 3);
+  }
+  EXPECT_GT(left, 0);
+  EXPECT_GT(stays, 0);
+  EXPECT_NEAR(left + stays, 0.4e-3, 2e-6);
+}
+
+TEST(Observables, NumbersAreShownInTheUnitsThatPeopleRead) {
+  EXPECT_EQ(ShownNumber("discharge_rate_kg_per_s", 1.23e-3), "1.23 g/s");
+  EXPECT_EQ(ShownNumber("mass_fallen_kg", 5.04e-6), "5.04 mg");
+  EXPECT_EQ(ShownNumber("runout_m", 0.0125), "12.5 mm");
+  EXPECT_EQ(ShownNumber("angle_deg", 33.25), "33.25°");
+  EXPECT_EQ(ShownNumber("tapped_density_kg_per_m3", 1480), "1480 kg/m³");
 }
 
 }  // namespace rigs_test

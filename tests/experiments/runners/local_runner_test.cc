@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/files/file.h"
+#include "experiments/runners/exit_status.h"
 
 namespace talus::runners {
 namespace local_runner_test {
@@ -255,6 +256,13 @@ TEST_F(LocalRunnerTest, TwoHundredTrivialJobsEndOnceEach) {
     ended += finished.size();
   }
   EXPECT_THAT(num_ends, Each(1));
+}
+
+TEST(ExitStatus, OnlyThoseAboveByASignalsNumberAreOfASignal) {
+  EXPECT_EQ(SignalOf(137), 9);
+  EXPECT_EQ(SignalOf(128), std::nullopt);
+  EXPECT_EQ(SignalOf(3), std::nullopt);
+  EXPECT_EQ(SignalOf(255), std::nullopt);  // as ssh and mpirun exit
 }
 
 }  // namespace local_runner_test

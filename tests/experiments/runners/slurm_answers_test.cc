@@ -179,5 +179,17 @@ TEST(SlurmQueue, TheJobIsTheLastNumberThatBeginsALine) {
   EXPECT_EQ(ParseSubmitted("not today\n"), "");
 }
 
+TEST(SlurmVerdict, ADeadlineIsATimeLimit) {
+  EXPECT_EQ(VerdictOf({"DEADLINE", ""}, "").end, JobEnd::kTimeCap);
+  EXPECT_FALSE(VerdictOf({"DEADLINE", ""}, "").requeue);
+}
+
+TEST(SlurmVerdict, EitherSpellingOfAMemoryKillIsOne) {
+  for (const char* log :
+       {"Detected 1 oom-kill event(s)", "Detected 1 oom_kill event", "Exceeded job memory limit"}) {
+    EXPECT_EQ(VerdictOf({"FAILED", "NonZeroExitCode"}, log).end, JobEnd::kOutOfMemory) << log;
+  }
+}
+
 }  // namespace slurm_answers_test
 }  // namespace talus::runners
