@@ -149,12 +149,17 @@ TEST(Spec, WhatTheContactLawsDoNotAskForIsNotSearched) {
   EXPECT_EQ(ErrorOf(with("epsd", "rolling_damping")), "");
 }
 
-TEST(Spec, DecksThatTakeNoSeedOrNoGrainSizeAreWarnedOf) {
-  const ScratchFolder scratch;
+CampaignSpec WithDeckIn(const std::filesystem::path& folder) {
   CampaignSpec spec = Read(kGood);
   spec.engine.kind = EngineKind::kCommand;
   spec.engine.command.command = {"sh", "run.sh"};
-  spec.engine.command.templates = scratch.path();
+  spec.engine.command.templates = folder;
+  return spec;
+}
+
+TEST(Spec, DecksThatTakeNoSeedOrNoGrainSizeAreWarnedOf) {
+  const ScratchFolder scratch;
+  CampaignSpec spec = WithDeckIn(scratch.path());
   const auto warnings = [&](const char* deck) {
     std::ofstream(scratch.path() / "run.sh") << deck;
     return DeckWarnings(spec);
@@ -172,10 +177,7 @@ TEST(Spec, DecksThatTakeNoSeedOrNoGrainSizeAreWarnedOf) {
 // A drum was predicted with the deck of a lifted tube: the tube again.
 TEST(Spec, ADeckIsToldOfWhatMakesAProcessAnotherTest) {
   const ScratchFolder scratch;
-  CampaignSpec spec = Read(kGood);
-  spec.engine.kind = EngineKind::kCommand;
-  spec.engine.command.command = {"sh", "run.sh"};
-  spec.engine.command.templates = scratch.path();
+  CampaignSpec spec = WithDeckIn(scratch.path());
   rigs::Case other = TypicalCase(spec, 0, spec.coarse_graining.Levels().front());
   const auto untold = [&](const char* deck) {
     std::ofstream(scratch.path() / "run.sh") << deck;
