@@ -134,18 +134,6 @@ void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
   evidence.scale_factor = FinestOfSearch(trials);
 }
 
-// As the answer counts it.
-double CoreHours(const std::vector<journal::TrialRecord>& trials,
-                 const campaign::CampaignSpec& spec) {
-  double seconds = 0;
-  for (const journal::TrialRecord& trial : trials) {
-    const bool counts =
-        trial.status != journal::TrialStatus::kRunning && trial.kind != journal::TrialKind::kReused;
-    if (counts) seconds += campaign::MeasuredCoreTime(trial, spec);
-  }
-  return seconds / 3600;
-}
-
 // The times of all experiments together.
 void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
@@ -285,8 +273,9 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   AddAnswer(progress.result_json, record, evidence);
   MarkNuisances(spec, evidence);
   AddTimes(evidence, progress.elapsed_s);
-  evidence.core_hours = evidence.answer && !evidence.IsRunning() ? evidence.answer->cost.core_hours
-                                                                 : CoreHours(trials, spec);
+  evidence.core_hours = evidence.answer && !evidence.IsRunning()
+                            ? evidence.answer->cost.core_hours
+                            : campaign::MeasuredCoreTime(trials, spec) / 3600;
   AddVersions(record, evidence);
   evidence.profile =
       [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {

@@ -93,10 +93,12 @@ std::string AlarmText(const Alarm& a) {
       return rigs::FewGrainsText(a.value.value_or(0), a.scale_factor.value_or(1),
                                  a.experiment.value_or(""));
     case AlarmKind::kImplausible:
-      return "no set fits " + experiment + (a.reason ? " beside the other tests" : "") +
+      return "no set fits " + experiment + (a.reason ? " " + *a.reason : "") +
              ": the recommended one is " + value + " standard deviations off; " + PriorOf(a) +
              "the searched ranges, the contact law, the walls' material or the set-up is wrong" +
-             a.reason.value_or("");
+             // The model looks for one set: it may be the tests that contradict one another.
+             (a.reason ? ", or the other tests rule out what fits it (`talus consider DIR --alone`)"
+                       : "");
     case AlarmKind::kAllAlike:
       return "all " + base::ShortNumber(a.value.value_or(0)) + " simulations of " + experiment +
              " gave exactly the same, whatever was searched and whatever the seed: does the engine "

@@ -262,8 +262,9 @@ ResultConditions ConditionsOf(const CampaignSpec& spec, const Eigen::VectorXd& p
 }
 
 ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
-  ResultCost cost{.core_hours = planner.goal() ? planner.goal()->core_time / 3600 : 0,
-                  .elapsed = evidence.elapsed};
+  const double of_goal = planner.goal() ? planner.goal()->core_time : 0;
+  const double of_trials = MeasuredCoreTime(planner.trials(), evidence.spec);
+  ResultCost cost{.core_hours = (of_goal + of_trials) / 3600, .elapsed = evidence.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.status == journal::TrialStatus::kRunning ||
         trial.kind == journal::TrialKind::kReused) {
@@ -271,7 +272,6 @@ ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
     }
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
-    cost.core_hours += MeasuredCoreTime(trial, evidence.spec) / 3600;
   }
   return cost;
 }

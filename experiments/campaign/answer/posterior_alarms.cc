@@ -25,11 +25,6 @@ bool HasFewSimulations(const Answer& answer) {
          p.fewest_at_finest < kEnoughAtFinest && !is_done;
 }
 
-// The model looks for one set: where several tests are answered it may be these that contradict
-// one another.
-constexpr const char* kOtherTests =
-    ", or the other tests rule out what fits it (`talus consider DIR --alone`)";
-
 // The experiment with the fewest simulations at the smallest scale factor.
 std::string MostCautious(const ResultPosterior& posterior) {
   return std::ranges::max_element(posterior.experiments, {}, &ResultStanding::caution)->name;
@@ -47,8 +42,9 @@ std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
                       .parameter = HeldByItsPrior(answer),
                       .experiment = e.name,
                       .value = e.implausibility,
-                      .reason = p.experiments.size() > 1 ? std::optional<std::string>(kOtherTests)
-                                                         : std::nullopt});
+                      .reason = p.experiments.size() > 1
+                                    ? std::optional<std::string>("beside the other tests")
+                                    : std::nullopt});
   }
   if (Disagree(p.tension, p.raw_coverage)) {
     alarms.push_back({.kind = AlarmKind::kDisagree, .experiment = p.odd, .value = p.tension});

@@ -31,6 +31,16 @@ double MeasuredCoreTime(const journal::TrialRecord& trial, const CampaignSpec& s
                                          : measured;
 }
 
+double MeasuredCoreTime(std::span<const journal::TrialRecord> trials, const CampaignSpec& spec) {
+  double sum = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    if (!IsRunning(trial) && trial.kind != journal::TrialKind::kReused) {
+      sum += MeasuredCoreTime(trial, spec);
+    }
+  }
+  return sum;
+}
+
 double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   usual_.Clear();
   double sum = 0;

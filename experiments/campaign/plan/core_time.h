@@ -15,6 +15,8 @@ double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores);
 // That of a campaign's trial. Another engine's ranks that `srun` starts are no children of the
 // job's script, which cannot measure them: in Slurm they count as long as the job had its cores.
 double MeasuredCoreTime(const journal::TrialRecord& trial, const CampaignSpec& spec);
+// That of all that have ended in the campaign, without what it took over from others.
+double MeasuredCoreTime(std::span<const journal::TrialRecord> trials, const CampaignSpec& spec);
 
 class CoreTime {
  public:

@@ -1,4 +1,5 @@
-// An answer whose recommended set was simulated again, for tests of what is said of it.
+// Answers by hand, for tests of what is said of them: of a set that was simulated again, and of two
+// parameters.
 #pragma once
 
 #include "experiments/campaign/answer/answer.h"
@@ -21,5 +22,19 @@ inline Answer ConfirmedAt(double mean) {
 }
 
 inline ResultConfirmed& HeapOf(Answer& answer) { return answer.confirmed[0].experiments[0]; }
+
+// Sliding friction from 0 to 1 and surface energy from 1 µJ/m² to 100 µJ/m², logarithmic.
+inline Answer ResultWithSet(double sliding, double energy) {
+  Answer answer;
+  answer.parameters = {
+      {.name = "sliding_friction", .value = sliding, .searched_low = 0, .searched_high = 1},
+      {.name = "surface_energy",
+       .unit = "J/m²",
+       .value = energy,
+       .searched_low = 1e-6,
+       .searched_high = 1e-4,
+       .scale = optimizer::Scale::kLog}};
+  return answer;
+}
 
 }  // namespace talus::campaign

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -65,6 +66,12 @@ inline Case Filmed() {
 
 inline std::string ErrorOf(const char* text) {
   return ErrorIn([&] { LoadCase(base::ParseJson(text, "case.json")); });
+}
+
+inline std::vector<int> WallMaterialsOf(const Case& c) {
+  std::vector<int> list;
+  for (const engine::Wall& wall : EntryOf(c).walls(c, 0)) list.push_back(wall.material);
+  return list;
 }
 
 }  // namespace talus::rigs
