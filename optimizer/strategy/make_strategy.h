@@ -41,8 +41,9 @@ struct StrategyOptions {
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind, {.doc = "how the next simulations are chosen"});
     visit("num_initial", self.num_initial,
-          {.doc = "auto, gp, rbf: size of the initial design; 0 for 4 d + 4 with d parameters that "
-                  "are no nuisances (auto of a campaign), else 2 d + 3, d + 3 on an exact table"});
+          {.doc = "auto, gp, rbf: size of the initial design; 0 for 4 d + 4, where a nuisance "
+                  "adds to d half of how wide its prior is (auto of a campaign), else 2 d + 3, "
+                  "d + 3 on an exact table"});
     visit("stop_multiple", self.stop_multiple,
           {.doc = "gp, auto of one objective: stops when less than this times the noise "
                   "standard deviation of one evaluation is left to gain; 0 never"});

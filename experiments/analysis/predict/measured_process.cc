@@ -2,30 +2,23 @@
 
 #include "base/json/json_reader.h"
 #include "base/text/counted.h"
+#include "base/text/number_text.h"
+#include "experiments/campaign/spec/drum_images.h"
+#include "experiments/campaign/spec/experiment_spec.h"
 #include "experiments/campaign/spec/possible_numbers.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/profile_file.h"
-#include "imaging/photos/experiment.h"
 
 namespace talus::analysis {
 namespace {
 
-// An experiment of a spec without its name and its rig.
+// What an experiment of a spec has measured; how it was made stands in the case.
 struct MeasuredFile {
-  imaging::ExperimentOptions images;
-  campaign::MeasuredNumbers numbers;
+  campaign::ExperimentSpec experiment;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    imaging::ExperimentOptions::Visit(self.images, visit);
-    campaign::MeasuredNumbers::Visit(self.numbers, visit);
-  }
-  void Validate(base::Problems& problems) const {
-    problems.Require(images.HasImages() || !campaign::ScalarsOf(numbers).empty(), "",
-                     "has no data: give photos, runs or a map, or numbers with their errors such "
-                     "as \"angle\": {\"value\": \"38 deg\", \"sd\": \"1 deg\"}");
-    if (images.HasImages()) images.Validate(problems);
-    campaign::RequirePossible(numbers, "", problems);
+    campaign::ExperimentSpec::VisitData(self.experiment, visit);
   }
 };
 
@@ -47,34 +40,66 @@ void RequireMeasuredBy(const PredictedCase& predicted,
   }
 }
 
+MeasuredProcess ReadData(const std::filesystem::path& path, const PredictedCase& predicted) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  campaign::ExperimentSpec e = base::LoadOptions<MeasuredFile>(file).experiment;
+  e.name = predicted.name;
+  e.rig = predicted.rig_case.rig;
+  if (campaign::IsDrum(e.rig) && e.images.HasImages() && e.images.plate_diameter == 0) {
+    e.images.plate_diameter = e.rig->drum.diameter;
+  }
+  MeasuredProcess measured{.numbers = campaign::ScalarsOf(e), .profile = {}};
+  base::Problems problems(path.string(), file.places);
+  e.Validate(problems);
+  campaign::ValidateDrumImages(e, "", problems);
+  campaign::RequirePossible(e.numbers, "", problems);
+  RequireMeasuredBy(predicted, measured.numbers, problems);
+  problems.ThrowIfAny();
+  if (e.images.HasImages()) measured.profile = campaign::MeasureImages(e).aehp;
+  return measured;
+}
+
+// That the image shows what the case's camera does.
+void RequireComparable(const std::filesystem::path& path, const imaging::Frame& frame,
+                       const PredictedCase& predicted) {
+  const auto refuse = [&](const std::string& why) {
+    throw base::ConfigError(path.string() + ": " + why);
+  };
+  if (!predicted.scene_text.empty()) {
+    refuse("is an image, and a scene has none to compare it with; give a case of a bulk test");
+  }
+  const rigs::Case& rig_case = predicted.rig_case;
+  const auto& camera = rig_case.rig.camera;
+  const int num_pictures = camera ? camera->num_pictures() : 1;
+  if (frame.num_pictures() != num_pictures) {
+    refuse("shows " + base::Counted(frame.num_pictures(), "picture") + " where the case takes " +
+           std::to_string(num_pictures) + " (rig.camera.times): give a picture for each time");
+  }
+  if (!campaign::IsWidthOf(rig_case, frame.plate_diameter)) {
+    refuse("is scaled by a width of " + base::ShortNumber(1e3 * frame.plate_diameter) +
+           " mm (plate_diameter) where that of the case is " +
+           base::ShortNumber(1e3 * rigs::EntryOf(rig_case).width(rig_case)) +
+           " mm: one of the two is wrong, or the image is of another test");
+  }
+}
+
 }  // namespace
 
 MeasuredProcess ReadMeasured(const std::filesystem::path& path, const PredictedCase& predicted) {
+  const bool is_profile = std::filesystem::is_directory(path) || path.extension() == ".png";
   MeasuredProcess measured;
-  if (std::filesystem::is_directory(path) || path.extension() == ".png") {
-    measured.profile = imaging::ReadProfile(path);
+  if (!is_profile) {
+    measured = ReadData(path, predicted);
   } else {
-    const base::JsonFile file = base::ReadJsonFile(path);
-    const auto read = base::LoadOptions<MeasuredFile>(file);
-    measured.numbers = campaign::ScalarsOf(read.numbers);
-    base::Problems problems(path.string(), file.places);
-    RequireMeasuredBy(predicted, measured.numbers, problems);
-    problems.ThrowIfAny();
-    if (read.images.HasImages()) measured.profile = imaging::MeasureExperiment(read.images).aehp;
+    measured.profile = imaging::ReadProfile(path);
+    const auto& camera = predicted.rig_case.rig.camera;
+    if (camera && camera->shows == rigs::Shown::kAny) {
+      throw base::ConfigError(path.string() +
+                              ": is grey where the case's camera shows powder that any picture "
+                              "has: give a JSON file with it as \"map\", and a \"threshold\"");
+    }
   }
-  if (measured.profile && !predicted.scene_text.empty()) {
-    throw base::ConfigError(path.string() +
-                            ": is an image, and a scene has none to compare it with; give a case "
-                            "of a bulk test");
-  }
-  const auto& camera = predicted.rig_case.rig.camera;
-  const int num_pictures = camera ? camera->num_pictures() : 1;
-  if (measured.profile && measured.profile->frame.num_pictures() != num_pictures) {
-    throw base::ConfigError(path.string() + ": shows " +
-                            base::Counted(measured.profile->frame.num_pictures(), "picture") +
-                            " where the case takes " + std::to_string(num_pictures) +
-                            " (rig.camera.times): give a picture for each time");
-  }
+  if (measured.profile) RequireComparable(path, measured.profile->frame, predicted);
   return measured;
 }
 

@@ -16,9 +16,9 @@ struct MeasuredProcess {
   std::optional<imaging::Profile> profile;
 };
 
-// From a JSON file with the keys of a spec's experiment (photographs or a map, numbers with their
-// errors), or from a profile that `talus measure` wrote. Throws ConfigError where it has nothing,
-// or a number that the rig does not give.
+// From a JSON file with what a spec's experiment has measured (photographs or a map, a drum's, too;
+// numbers with their errors), or from a profile that `talus measure` wrote. Throws ConfigError
+// where it has nothing, a number that the rig does not give, or an image of another test.
 MeasuredProcess ReadMeasured(const std::filesystem::path& file, const PredictedCase& predicted);
 
 }  // namespace talus::analysis

@@ -94,7 +94,7 @@ bool ShowsDrum(const ExperimentSpec& e) {
 
 void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
                         base::Problems& problems) {
-  const std::string prefix = place + ".";
+  const std::string prefix = place.empty() ? "" : place + ".";
   if (!ShowsDrum(e)) {
     problems.Require(!e.turning, prefix + "turning", "is of a drum's photographs: remove it");
     problems.Require(!e.circle_diameter, prefix + "circle_diameter",

@@ -20,7 +20,7 @@ bool HasFill(const ExperimentSpec& experiment);  // in place of a mass
 bool ShowsDrum(const ExperimentSpec& experiment);
 
 // Adds a problem for each option that a drum's photographs do not take, and for each of theirs that
-// other images do not.
+// other images do not. `place` is the experiment's in its file, empty for the whole file.
 void ValidateDrumImages(const ExperimentSpec& experiment, const std::string& place,
                         base::Problems& problems);
 

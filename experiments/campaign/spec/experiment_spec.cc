@@ -1,7 +1,10 @@
 #include "experiments/campaign/spec/experiment_spec.h"
 
+#include <cmath>
+
 #include "base/text/name.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
 
@@ -27,6 +30,11 @@ rigs::Case RigOf(const ExperimentSpec& experiment) {
   rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
   rig_case.SetDevice(*experiment.device);
   return rig_case;
+}
+
+bool IsWidthOf(const rigs::Case& rig_case, double width) {
+  const double own = rigs::EntryOf(rig_case).width(rig_case);
+  return std::abs(width - own) <= 0.01 * own;
 }
 
 }  // namespace talus::campaign

@@ -38,7 +38,7 @@ struct ExperimentSpec {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("name", self.name, {.required = true, .doc = "what tables and messages call it"});
-    imaging::ExperimentOptions::Visit(self.images, visit);
+    VisitData(self, visit);
     visit("device", self.device, {.doc = "tube and plate, instead of the campaign's device"});
     visit("pairs", self.pairs, {.doc = "of the powder with its walls, instead of the campaign's"});
     visit("rules", self.rules, {.doc = "when each phase ends, instead of the campaign's rules"});
@@ -46,6 +46,14 @@ struct ExperimentSpec {
     visit("filling", self.filling, {.doc = "how the powder gets in, instead of the campaign's"});
     visit("mass", self.mass,
           {.dimension = base::Dimension::kMass, .doc = "filled, > 0, instead of the powder's"});
+    visit(
+        "weight", self.weight,
+        {.doc = "power of its likelihood, > 0; above 1 the answer is narrower than the data say"});
+  }
+  // What was measured: images, how a drum's are read, numbers.
+  template <class Self, class Visitor>
+  static void VisitData(Self& self, Visitor&& visit) {
+    imaging::ExperimentOptions::Visit(self.images, visit);
     visit("turning", self.turning,
           {.doc = "how a drum's photographs show it turn: clockwise carries the powder up on the "
                   "left; default: read from the picture"});
@@ -54,9 +62,6 @@ struct ExperimentSpec {
            .doc = "of the outermost circle on a drum's photographs, the outside of its ring; "
                   "default: the rig's diameter"});
     MeasuredNumbers::Visit(self.numbers, visit);
-    visit(
-        "weight", self.weight,
-        {.doc = "power of its likelihood, > 0; above 1 the answer is narrower than the data say"});
   }
   void Validate(base::Problems& problems) const;
 };
@@ -67,6 +72,9 @@ inline rigs::RigKind KindOf(const ExperimentSpec& experiment) {
 
 // A case with its rig and device, and nothing else.
 rigs::Case RigOf(const ExperimentSpec& experiment);
+
+// Whether images that are scaled by this width [m] can be of this rig: within 1 % of its own.
+bool IsWidthOf(const rigs::Case& rig_case, double width);
 
 inline std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment) {
   return ScalarsOf(experiment.numbers);

@@ -40,8 +40,7 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
   const double width = rigs::EntryOf(rig).width(rig);
   const bool tube = rig.rig.kind == rigs::RigKind::kLiftedTube;
   problems.Require(
-      std::abs(e.images.plate_diameter - width) <= 0.01 * width, place + ".plate_diameter",
-      e.images.plate_diameter,
+      IsWidthOf(rig, e.images.plate_diameter), place + ".plate_diameter", e.images.plate_diameter,
       tube ? "is not the device's plate_diameter: one of the two is wrong, or the experiment needs "
              "a "
              "device of its own"

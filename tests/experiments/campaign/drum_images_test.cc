@@ -14,6 +14,7 @@
 #include "experiments/campaign/start.h"
 #include "imaging/formats/images/image_file.h"
 #include "tests/error_in.h"
+#include "tests/experiments/drawn_drum.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
@@ -23,36 +24,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr int kSide = 200;  // of the picture [px]
-constexpr double kRadius = 95;
-constexpr double kRing = 3;  // [px]
-
-// Half full; the surface falls by 40 degrees to the right, or to the left. Up to `haze` [px] above
-// it half of the pictures show powder.
-imaging::GrayImage Draw(bool falls_right, double haze = 0) {
-  imaging::GrayImage image{.width = kSide, .height = kSide, .pixels = {}};
-  const double slope = std::tan(40 * std::numbers::pi / 180) * (falls_right ? -1 : 1);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const double right = x + 0.5 - kSide / 2.0;
-      const double up = kSide / 2.0 - y - 0.5;
-      const double r = std::hypot(right, up);
-      const bool dark =
-          (r <= kRadius && up < slope * right) || (r <= kRadius && r > kRadius - kRing);
-      const bool half = r <= kRadius && up < slope * right + haze;
-      image.pixels.push_back(dark ? 20 : half ? 130 : 240);
-    }
-  }
-  return image;
-}
-
 class DrumImages : public ::testing::Test {
  public:
   DrumImages() {
     fs::create_directories(scratch_.path() / "photos");
-    imaging::WritePng(photo_, Draw(false));
-    imaging::WritePng(scratch_.path() / "map.png", Draw(true));
-    imaging::WritePng(hazy_, Draw(true, 16));
+    imaging::WritePng(photo_, DrawDrum(false));
+    imaging::WritePng(scratch_.path() / "map.png", DrawDrum(true));
+    imaging::WritePng(hazy_, DrawDrum(true, 16));
   }
   // `more` are keys of the second experiment, whose series turns the other way.
   CampaignSpec Read(const std::string& more = "", bool fill_is_searched = true) const {
@@ -117,12 +95,12 @@ TEST_F(DrumImages, TheFillStaysWhereThePhotographsAreGone) {
 
 // At 45 rpm and more powder may turn with its drum.
 TEST_F(DrumImages, PowderWithoutASurfaceSaysNoFill) {
-  imaging::GrayImage ring = Draw(false);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const double right = x + 0.5 - kSide / 2.0, down = y + 0.5 - kSide / 2.0;
-      const bool powder = std::hypot(right, down + 4) > 0.7 * kRadius;
-      if (std::hypot(right, down) < kRadius) ring.at(x, y) = powder ? 20 : 240;
+  imaging::GrayImage ring = DrawDrum(false);
+  for (int y = 0; y < kDrumSide; ++y) {
+    for (int x = 0; x < kDrumSide; ++x) {
+      const double right = x + 0.5 - kDrumSide / 2.0, down = y + 0.5 - kDrumSide / 2.0;
+      const bool powder = std::hypot(right, down + 4) > 0.7 * kDrumRadius;
+      if (std::hypot(right, down) < kDrumRadius) ring.at(x, y) = powder ? 20 : 240;
     }
   }
   imaging::WritePng(photo_, ring);
@@ -145,11 +123,11 @@ TEST_F(DrumImages, ASearchedFillIsTheMassOfATrial) {
 // The picture's outermost circle is the ring's outside: the drum is 92 of its 95 px wide.
 TEST_F(DrumImages, TheCirclesDiameterIsTheScale) {
   ExperimentSpec e = ExperimentsOf(Read())[0];
-  e.circle_diameter = 0.084 * kRadius / (kRadius - kRing);
+  e.circle_diameter = 0.084 * kDrumRadius / (kDrumRadius - kDrumRing);
   const imaging::Frame frame = MeasureImages(e).aehp.frame;
-  EXPECT_NEAR(frame.pixel_size, 0.042 / (kRadius - kRing), 0.005 * frame.pixel_size);
+  EXPECT_NEAR(frame.pixel_size, 0.042 / (kDrumRadius - kDrumRing), 0.005 * frame.pixel_size);
   EXPECT_NEAR(frame.plate_diameter, 0.084, 1e-12);
-  EXPECT_NEAR(frame.baseline, kSide / 2.0 + kRadius - kRing, 1);
+  EXPECT_NEAR(frame.baseline, kDrumSide / 2.0 + kDrumRadius - kDrumRing, 1);
 }
 
 // Mirrored, the drum that turns the other way shows what the first shows.
@@ -158,14 +136,14 @@ TEST_F(DrumImages, ProfilesTurnAsTheRigDoesAndKnowTheDiscOnly) {
   const imaging::Profile first = MeasureImages(all[0]).aehp;
   const imaging::Profile second = MeasureImages(all[1]).aehp;
   EXPECT_EQ(first.image.pixels, second.image.pixels);
-  EXPECT_EQ(first.image.at(kSide / 2 - 60, kSide / 2), 0);
-  EXPECT_EQ(first.image.at(kSide / 2 + 60, kSide / 2), 255);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  EXPECT_EQ(first.image.at(kDrumSide / 2 - 60, kDrumSide / 2), 0);
+  EXPECT_EQ(first.image.at(kDrumSide / 2 + 60, kDrumSide / 2), 255);
+  for (int y = 0; y < kDrumSide; ++y) {
+    for (int x = 0; x < kDrumSide; ++x) {
       EXPECT_TRUE(first.frame.Knows(x, y) || first.image.at(x, y) == 255);
     }
   }
-  EXPECT_LT(first.frame.disc_diameter.value(), 0.084 * (kRadius - kRing) / kRadius);
+  EXPECT_LT(first.frame.disc_diameter.value(), 0.084 * (kDrumRadius - kDrumRing) / kDrumRadius);
 }
 
 // The mean shows half of the haze, and a binary map all or nothing of it. Its level comes out
@@ -188,11 +166,11 @@ TEST_F(DrumImages, PowderInAnyPictureIsWhatIsDarkerThanTheThreshold) {
 TEST_F(DrumImages, AMapWithItsFrameIsMadeBinaryToo) {
   ExperimentSpec e = ExperimentsOf(Read())[0];
   e.images.map = hazy_;
-  e.images.frame = imaging::Frame{.width = kSide,
-                                  .height = kSide,
-                                  .pixel_size = 0.042 / kRadius,
-                                  .center_x = kSide / 2.0,
-                                  .baseline = kSide / 2.0 + kRadius,
+  e.images.frame = imaging::Frame{.width = kDrumSide,
+                                  .height = kDrumSide,
+                                  .pixel_size = 0.042 / kDrumRadius,
+                                  .center_x = kDrumSide / 2.0,
+                                  .baseline = kDrumSide / 2.0 + kDrumRadius,
                                   .plate_diameter = 0.084,
                                   .disc_diameter = 0.08};
   e.rig->camera = {.frames = 20, .interval = 0.01, .shows = rigs::Shown::kAny};
