@@ -182,7 +182,17 @@ struct Taker {
   }
 };
 
-std::set<std::filesystem::path> FoldersOf(const CampaignSpec& spec) {
+bool AreSameMeasurements(const journal::ExperimentRecord& a, const journal::ExperimentRecord& b) {
+  if (!a.aehp_png.empty()) return a.aehp_png == b.aehp_png;
+  const auto same = [](const journal::ScalarRecord& x, const journal::ScalarRecord& y) {
+    return x.name == y.name && x.value == y.value && x.standard_error == y.standard_error;
+  };
+  return b.aehp_png.empty() && std::ranges::equal(a.scalars, b.scalars, same);
+}
+
+}  // namespace
+
+std::set<std::filesystem::path> PriorFolders(const CampaignSpec& spec) {
   std::set<std::filesystem::path> folders;
   ParameterRanges::Visit(*spec.parameters,
                          [&](std::string_view, const auto& entry, base::FieldInfo = {}) {
@@ -198,20 +208,10 @@ std::set<std::filesystem::path> FoldersOf(const CampaignSpec& spec) {
   return folders;
 }
 
-bool AreSameMeasurements(const journal::ExperimentRecord& a, const journal::ExperimentRecord& b) {
-  if (!a.aehp_png.empty()) return a.aehp_png == b.aehp_png;
-  const auto same = [](const journal::ScalarRecord& x, const journal::ScalarRecord& y) {
-    return x.name == y.name && x.value == y.value && x.standard_error == y.standard_error;
-  };
-  return b.aehp_png.empty() && std::ranges::equal(a.scalars, b.scalars, same);
-}
-
-}  // namespace
-
 std::vector<std::string> EarlierWarnings(const CampaignSpec& spec,
                                          const journal::CampaignRecord& record) {
   std::vector<std::string> warnings;
-  for (const std::filesystem::path& folder : FoldersOf(spec)) {
+  for (const std::filesystem::path& folder : PriorFolders(spec)) {
     journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
     const journal::CampaignRecord earlier = journal.Campaign();
     for (const journal::ExperimentRecord& own : record.experiments) {

@@ -1,6 +1,8 @@
 // Posteriors of other campaigns as priors of this one ("from": "DIR").
 #pragma once
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,9 @@ namespace talus::campaign {
 // (sizes, density of the grains or contact laws differ), or where its parameters are.
 CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file,
                                     const CampaignSpec* begun = nullptr);
+
+// The campaigns whose posteriors its priors are.
+std::set<std::filesystem::path> PriorFolders(const CampaignSpec& spec);
 
 // What is to be said of the campaigns that priors are from: one of the same measurements, which
 // then count twice, and one in which no set fits.

@@ -1,12 +1,15 @@
 #include "experiments/analysis/batches/batch_warnings.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <set>
 
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/campaign/answer/standing_answer.h"
+#include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/rigs/case/case_text.h"
 
@@ -88,6 +91,12 @@ std::string OtherTests(const JointView& first, const JointView& batch) {
   return text.empty() ? "" : "there is " + text;
 }
 
+// One name for one folder.
+std::filesystem::path WholePath(const std::filesystem::path& folder) {
+  const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+  return whole.has_filename() ? whole : whole.parent_path();  // of "february/"
+}
+
 std::string EngineText(const campaign::EngineOptions& engine) {
   if (engine.kind == campaign::EngineKind::kTalus) return "talus itself";
   return "\"" + base::Joined(engine.command.command, " ") + "\"";
@@ -104,6 +113,24 @@ std::string OtherEngine(const JointView& first, const JointView& batch) {
          (same_engine ? "other templates of " : "another engine, ") + EngineText(here) + ", " +
          first.folder.root.string() + " by " + (same_engine ? "its own" : EngineText(there)) +
          ": parameters of one name need not mean the same, and a difference of them may come of it";
+}
+
+std::string CommonPrior(const JointView& first, const JointView& batch) {
+  const auto known_to = [](const JointView& view) {
+    std::set<std::filesystem::path> folders{WholePath(view.folder.root)};
+    for (const std::filesystem::path& folder : campaign::PriorFolders(view.spec)) {
+      folders.insert(WholePath(folder));
+    }
+    return folders;
+  };
+  const auto there = known_to(first), here = known_to(batch);
+  const auto common = std::ranges::find_if(
+      here, [&](const std::filesystem::path& folder) { return there.contains(folder); });
+  if (common == here.end()) return "";
+  const std::string both = batch.folder.root.string() + " and " + first.folder.root.string();
+  return both + ": both know the posterior of " + common->string() +
+         " by a prior, so that a difference is shown smaller than it is; calibrate without it " +
+         "(calibrate --reuse takes the simulations over)";
 }
 
 std::vector<std::string> AlarmsOf(const JointView& batch) {

@@ -15,6 +15,10 @@ std::vector<std::string> AlarmsOf(const campaign::JointView& batch);
 // That the batch's trials were simulated by another engine, or by another deck of it; empty if not.
 std::string OtherEngine(const campaign::JointView& first, const campaign::JointView& batch);
 
+// That the posterior of one of the two, or of a third campaign, is a prior of what the other one
+// says: a difference is then shown smaller than it is. Empty if not.
+std::string CommonPrior(const campaign::JointView& first, const campaign::JointView& batch);
+
 // What a batch's trials do otherwise than the first one's with the same parameters, in experiments
 // of the same name: their powder, device, models, rules, scale factor.
 std::vector<std::string> OtherConditions(const campaign::JointView& first,

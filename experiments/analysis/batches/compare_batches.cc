@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -264,6 +265,9 @@ void AddVerdicts(const std::vector<Batch>& batches, BatchComparison& comparison)
       comparison.other_engines.push_back(engine);
     }
     warn(OtherConditions(first, batches[b].view));
+    if (std::string prior = CommonPrior(first, batches[b].view); !prior.empty()) {
+      comparison.warnings.push_back(std::move(prior));
+    }
   }
   for (const Batch& batch : batches) warn(AlarmsOf(batch.view));
 }
