@@ -127,17 +127,13 @@ class OptimizeLoop {
   void Tell(const Evaluated& evaluated) {
     const optimizer::Observation& observation = evaluated.observation;
     strategy_->Tell(observation);
-    ++tally_.num_evaluations;
+    tally_.Add(observation);
     json line{{"evaluation", num_told()},
               {"parameters", NativeParameters(problem_, observation.point)}};
     if (observation.failed) {
-      ++tally_.num_failed;
       last_failure_ = evaluated.failure;
       line["failed"] = evaluated.failure;
     } else {
-      if (!tally_.best || observation.value < tally_.best->value) {
-        tally_.best = {.point = observation.point, .value = observation.value};
-      }
       line["value"] = observation.value;
     }
     if (output_.quiet) return;

@@ -13,8 +13,19 @@ const optimizer::Parameter& Free(const OptimizeProblem& problem, std::size_t i) 
   return problem.space.parameters[static_cast<std::size_t>(problem.space.Free()[i])];
 }
 
-json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer) {
+json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer,
+              const SearchTally& tally) {
   json texts = json::array();
+  const int num_values = tally.num_evaluations - tally.num_failed;
+  if (tally.is_constant && num_values > 1) {
+    texts.push_back("all " + std::to_string(num_values) +
+                    " evaluations gave one value: nothing that is searched acts on it");
+  } else if (tally.num_repeats > 1 && tally.num_equal_repeats == tally.num_repeats) {
+    texts.push_back(
+        "each of the " + std::to_string(tally.num_repeats) +
+        " repeats of a set gave that set's value again: the command may ignore its "
+        "seed; where a set has one value, say \"exact\": true, and nothing is repeated");
+  }
   if (answer.is_guess) texts.push_back("no evaluation has succeeded: the point is only a guess");
   for (const optimizer::BoundWarning& warning : answer.warnings) {
     const optimizer::Parameter& parameter =
@@ -74,7 +85,7 @@ json OptimizeResult(const OptimizeProblem& problem, const optimizer::Answer& ans
   result["failed"] = tally.num_failed;
   result["stopped"] = stopped;
   result["model"] = answer.model;
-  result["warnings"] = Warnings(problem, answer);
+  result["warnings"] = Warnings(problem, answer, tally);
   return result;
 }
 

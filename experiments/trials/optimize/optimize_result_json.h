@@ -3,18 +3,12 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "experiments/trials/optimize/optimize_problem.h"
+#include "experiments/trials/optimize/search_tally.h"
 
 namespace talus::trials {
-
-struct SearchTally {
-  int num_evaluations = 0;
-  int num_failed = 0;
-  std::optional<optimizer::Observation> best;  // of the lowest value
-};
 
 // {"mu_t": 0.3, …} of a point of the unit cube.
 nlohmann::ordered_json NativeParameters(const OptimizeProblem& problem,
