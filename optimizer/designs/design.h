@@ -22,8 +22,8 @@ Points HalfStepNeighbours(std::span<const int> levels, std::span<const Eigen::Ve
 // point. Exchanges between points make the smallest distance large (maximin).
 Points LatinHypercube(int num_points, int num_parameters, std::uint64_t seed);
 
-// Sobol's sequence with the direction numbers of Joe and Kuo [joe2008], 1 to 6 parameters, its bits
-// flipped by a seeded pattern, which keeps its even spread. Seed 0 flips nothing.
+// Sobol's sequence with the direction numbers of Joe and Kuo [joe2008], 1 to 12 parameters, its
+// bits flipped by a seeded pattern, which keeps its even spread. Seed 0 flips nothing.
 Points Sobol(int num_points, int num_parameters, std::uint64_t seed);
 
 }  // namespace talus::optimizer

@@ -12,13 +12,22 @@ constexpr int kBits = 32;
 struct Direction {
   int s;
   unsigned a;
-  std::array<std::uint32_t, 4> m;
+  std::array<std::uint32_t, 5> m;
 };
 
-// new-joe-kuo-6.21201, dimensions 2 to 6 [joe2008].
+// new-joe-kuo-6.21201, dimensions 2 to 12 [joe2008].
 constexpr std::array kJoeKuo{
-    Direction{1, 0, {1}},       Direction{2, 1, {1, 3}},       Direction{3, 1, {1, 3, 1}},
-    Direction{3, 2, {1, 1, 1}}, Direction{4, 1, {1, 1, 3, 3}},
+    Direction{1, 0, {1}},
+    Direction{2, 1, {1, 3}},
+    Direction{3, 1, {1, 3, 1}},
+    Direction{3, 2, {1, 1, 1}},
+    Direction{4, 1, {1, 1, 3, 3}},
+    Direction{4, 4, {1, 3, 5, 13}},
+    Direction{5, 2, {1, 1, 5, 5, 17}},
+    Direction{5, 4, {1, 1, 5, 5, 5}},
+    Direction{5, 7, {1, 1, 7, 11, 19}},
+    Direction{5, 11, {1, 1, 5, 1, 1}},
+    Direction{5, 13, {1, 1, 1, 3, 11}},
 };
 
 std::array<std::uint32_t, kBits> DirectionNumbers(int dimension) {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "optimizer/designs/r_sequence.h"
+#include "optimizer/designs/design.h"
 
 namespace talus::optimizer {
 
-// With A and B independent samples and Aᵢ = A with column i of B, the estimators of
+// With A and B the halves of one low-discrepancy sample, as good as independent, and Aᵢ = A with
+// column i of B, the estimators of
 //   total = ½ mean (f(A) - f(Aᵢ))² / V              [jansen1999],
 //   first = mean (f(B) - mean f) (f(Aᵢ) - f(A)) / V   [saltelli2010].
 // The second is 0 for a coordinate without an effect, however small the sample; no first exceeds
@@ -14,9 +15,12 @@ namespace talus::optimizer {
 SobolIndices EstimateSobolIndices(
     const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values,
     const SobolSample& sample) {
-  const Eigen::MatrixXd both = RSequence(sample.num_base, 2 * sample.dimension, sample.seed);
-  const Eigen::MatrixXd a = both.leftCols(sample.dimension);
-  const Eigen::MatrixXd b = both.rightCols(sample.dimension);
+  const Points both = Sobol(sample.num_base, 2 * sample.dimension, sample.seed);
+  Eigen::MatrixXd a(sample.num_base, sample.dimension), b = a;
+  for (int n = 0; n < sample.num_base; ++n) {
+    a.row(n) = both[static_cast<std::size_t>(n)].head(sample.dimension);
+    b.row(n) = both[static_cast<std::size_t>(n)].tail(sample.dimension);
+  }
   const Eigen::ArrayXd at_a = values(a);
   const Eigen::ArrayXd at_b = values(b);
   const double mean = (at_a.mean() + at_b.mean()) / 2;

@@ -15,7 +15,7 @@ struct SobolIndices {
 };
 
 struct SobolSample {
-  int dimension = 1;
+  int dimension = 1;   // 1 to 6
   int num_base = 512;  // the function is asked num_base (dimension + 2) times
   std::uint64_t seed = 1;
 };
