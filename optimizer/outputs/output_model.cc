@@ -52,8 +52,12 @@ surrogate::Evaluations RowsOf(const OutputData& data, const Levels& levels,
 
 }  // namespace
 
+// Nearly linear to ten errors from 0: a number that was measured at 0 is as many errors away as it
+// says.
 double CompressionScale(const ScalarTarget& target) {
-  return std::abs(target.value) + target.standard_error;
+  constexpr double kLinearErrors = 10;
+  return std::max(std::abs(target.value) + target.standard_error,
+                  kLinearErrors * target.standard_error);
 }
 
 double Compress(const ScalarTarget& target, double value) {

@@ -65,9 +65,10 @@ Sole SoleNumber(const campaign::JointView& view, int experiment,
 }
 
 // What the experiment's own angle is known to: by its runs, or as a careful laboratory does.
-double ErrorOf(const journal::MetricRecord& angle) {
+double ErrorOf(const journal::MetricRecord& angle, int num_runs) {
   const rigs::UsualError& usual = rigs::InfoOf(rigs::Observable::kReposeAngle1).usual_error;
-  return angle.standard_error > 0 ? angle.standard_error : usual.absolute;
+  return angle.standard_error > 0 ? base::NormalError(angle.standard_error, num_runs - 1)
+                                  : usual.absolute;
 }
 
 std::vector<Sole> ObjectivesOf(const campaign::JointView& view, int experiment) {
@@ -80,9 +81,10 @@ std::vector<Sole> ObjectivesOf(const campaign::JointView& view, int experiment) 
     const auto angle =
         std::ranges::find(record.reference, objective.metric, &journal::MetricRecord::name);
     if (angle == record.reference.end() || !std::isfinite(angle->value)) continue;
-    all.push_back(SoleNumber(
-        view, experiment,
-        {.name = angle->name, .value = angle->value, .standard_error = ErrorOf(*angle)}));
+    all.push_back(SoleNumber(view, experiment,
+                             {.name = angle->name,
+                              .value = angle->value,
+                              .standard_error = ErrorOf(*angle, record.num_heaps)}));
   }
   for (const journal::ScalarRecord& number : record.scalars) {
     all.push_back(SoleNumber(
@@ -111,7 +113,7 @@ void AddUncertainty(const campaign::JointView& view, const Sole& sole,
   for (int group = 0; group < kGroups; ++group) {
     const auto strategy = Told(view, sole, group);
     if (!strategy->CanModel()) return;
-    logs.push_back(std::log(strategy->Sample().RegionVolume()));
+    logs.push_back(std::log(strategy->AskedSample().RegionVolume()));
     knowledge.num_holding += Holds((*strategy->CredibleLevels(recommended.transpose()))[0]);
   }
   knowledge.num_refits = kGroups;
@@ -131,7 +133,7 @@ ObjectiveKnowledge KnowledgeOfOne(const campaign::JointView& view, const Sole& s
     knowledge.absent = "too few trials have a value of it";
     return knowledge;
   }
-  knowledge.region = strategy->Sample().RegionVolume();
+  knowledge.region = strategy->AskedSample().RegionVolume();
   knowledge.level = (*strategy->CredibleLevels(recommended.transpose()))[0];
   AddUncertainty(view, sole, recommended, knowledge);
   return knowledge;
