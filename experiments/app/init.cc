@@ -223,7 +223,8 @@ void AddInitCommand(CLI::App& app) {
                    "a folder of photographs, or photographs one by one; none where other tests "
                    "were made only");
   verb->add_option("--out", arguments->out, "file to write")->capture_default_str();
-  verb->add_option("--name", arguments->answers.name, "of the powder; default: that of the folder");
+  verb->add_option("--name", arguments->answers.name,
+                   "of the powder; default: that of the photographs' folder, else of the file");
   verb->add_option(
       "--pattern", arguments->answers.pattern,
       "of the photographs' names: {run}, {view}, *, such as {run}/{view}.jpg; default: "

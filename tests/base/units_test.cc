@@ -3,7 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "tests/error_in.h"
@@ -13,6 +19,13 @@ namespace units_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+constexpr std::array kAll{
+    Dimension::kLength,        Dimension::kMass,         Dimension::kTime,
+    Dimension::kVelocity,      Dimension::kAcceleration, Dimension::kAngularVelocity,
+    Dimension::kAngle,         Dimension::kDensity,      Dimension::kPressure,
+    Dimension::kSurfaceEnergy, Dimension::kEnergy,       Dimension::kMassRate,
+    Dimension::kAreaDensity};
 
 TEST(Units, QuantitiesAsPeopleWriteThem) {
   EXPECT_DOUBLE_EQ(ParseQuantity("45 um", Dimension::kLength), 45e-6);
@@ -125,6 +138,29 @@ TEST(Units, MassPerAreaAsItIsWeighed) {
     EXPECT_DOUBLE_EQ(ParseQuantity(text, Dimension::kAreaDensity), 0.1) << text;
   }
   EXPECT_THAT(ErrorOf("10 mg/cm3", Dimension::kAreaDensity), HasSubstr("\"1 mg/cm^2\""));
+}
+
+// Each row of docs/units.md has the units of one dimension, its SI unit first.
+TEST(Units, DocumentedOnesAreRead) {
+  std::ifstream page(std::filesystem::path(TALUS_SOURCE_DIR) / "docs/units.md");
+  int num_rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || line.find('`') == std::string::npos) continue;
+    std::vector<std::string> units;
+    for (auto at = line.find('`'); at != std::string::npos; at = line.find('`', at + 1)) {
+      const auto end = line.find('`', at + 1);
+      units.push_back(line.substr(at + 1, end - at - 1));
+      at = end;
+    }
+    if (units.front() == "%") continue;
+    ++num_rows;
+    const auto dimension = std::ranges::find(kAll, units.front(), SiUnit);
+    ASSERT_NE(dimension, kAll.end()) << line;
+    for (const std::string& unit : units) {
+      EXPECT_GT(ParseQuantity("1 " + unit, *dimension), 0) << unit;
+    }
+  }
+  EXPECT_EQ(num_rows, kAll.size());
 }
 
 }  // namespace units_test
