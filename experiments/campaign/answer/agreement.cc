@@ -9,18 +9,19 @@
 namespace talus::campaign {
 namespace {
 
-// A nuisance counts by share. Of less than that the cube root's normal is none any more: a pull of
-// 0 would score 3 of 0.02 degrees.
-constexpr double kFewestDegrees = 0.5;
 constexpr int kDraws = 400;  // among which a least misfit is looked for
 
-// The normal score of a chi-squared variable of `freedom` degrees.
-double NormalScore(double chi_squared, double freedom) {
-  const double variance = 2 / (9 * freedom);
-  return (std::cbrt(chi_squared / freedom) - (1 - variance)) / std::sqrt(variance);
-}
-
 }  // namespace
+
+double Tension(double chi_squared, double freedom) {
+  // A nuisance counts by share. Of less than that the cube root's normal is none any more: a pull
+  // of 0 would score 3 of 0.02 degrees.
+  constexpr double kFewestDegrees = 0.5;
+  if (freedom < kFewestDegrees) return 0;
+  const double variance = 2 / (9 * freedom);
+  const double root = std::cbrt(std::max(0.0, chi_squared) / freedom);
+  return std::max(0.0, (root - (1 - variance)) / std::sqrt(variance));
+}
 
 Agreement AgreementOf(const JointView& view) {
   const std::vector<int> experiments = view.Answered();
@@ -53,8 +54,7 @@ Agreement AgreementOf(const JointView& view) {
     most = pull;
     agreement.odd = agreement.alone.back().experiments.front();
   }
-  if (freedom < kFewestDegrees) return agreement;
-  agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
+  agreement.tension = Tension(sum, freedom);
   return agreement;
 }
 

@@ -21,14 +21,17 @@ namespace talus::campaign {
 
 struct Agreement {
   std::vector<PartialAnswer> alone{};  // of each experiment that has enough trials
-  // Standard deviations of a normal variable as unlikely as Χ²; 0 or less: none. By Wilson and
-  // Hilferty's cube root.
-  double tension = 0;
+  double tension = 0;                  // Tension of Χ²
   std::string odd{};  // the experiment with the largest part of Χ²; "" without tension
 };
 
 // The agreement of the experiments that the campaign's answer meets.
 Agreement AgreementOf(const JointView& view);
+
+// Standard deviations of a normal variable as unlikely as a chi-squared one of so many degrees of
+// freedom, by Wilson and Hilferty's cube root; 0 where it is smaller than usual, and of less than
+// half a degree.
+double Tension(double chi_squared, double freedom);
 
 // Whether the tension is an alarm. Surrogates that miss most of their own trials (`raw_coverage` of
 // nominal 90 %, leave-one-out) cannot tell; the answer warns of them.

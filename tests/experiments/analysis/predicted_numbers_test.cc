@@ -317,6 +317,12 @@ TEST(Regimes, AreOfThePowdersOwnGrains) {
   // πγd over ρπd³g/6.
   const double density = rig_case.powder.material.density;
   EXPECT_NEAR(regime.bond_number, 6 * 1e-3 / (density * 5e-4 * 5e-4 * rig_case.gravity), 1e-9);
+  // JKR pulls off at three quarters of it, and grains without adhesion at nothing.
+  rig_case.models.adhesion = engine::Adhesion::kJkr;
+  EXPECT_NEAR(DescribeRegime("heap", {run}, rig_case).bond_number, 0.75 * regime.bond_number,
+              1e-12);
+  rig_case.models.adhesion = engine::Adhesion::kNone;
+  EXPECT_EQ(DescribeRegime("heap", {run}, rig_case).bond_number, 0);
   // t_c γ̇ goes with γ̇^(4/5).
   EXPECT_NEAR(regime.contact_duration[2] / regime.contact_duration[1], std::pow(10, 0.8), 1e-6);
 }

@@ -68,6 +68,18 @@ TEST_F(HoldingOut, TestsThatAgreeRaiseNoAlarm) {
   EXPECT_EQ(AnswerSummary(result, "runs/heap").find("no set fits"), std::string::npos);
 }
 
+// By hand: of 2 degrees χ² is beyond 9.21 with probability 0.01 and beyond 13.8 with 0.001, of 1
+// degree beyond 6.63 with 0.01 (tables); the cube root is within 0.06 of it there.
+TEST(Agreement, TensionIsThatOfANormalVariableAsUnlikely) {
+  EXPECT_NEAR(Tension(9.21, 2), 2.326, 0.06);
+  EXPECT_NEAR(Tension(13.82, 2), 3.090, 0.06);
+  EXPECT_NEAR(Tension(6.635, 1), 2.326, 0.06);
+  EXPECT_EQ(Tension(0.5, 2), 0);  // less than usual
+  EXPECT_EQ(Tension(-1, 2), 0);
+  EXPECT_EQ(Tension(1, 0.4), 0);  // of a nuisance's share of a degree the score is none
+  EXPECT_GT(Tension(4, 0.6), 1);
+}
+
 TEST(Agreement, TensionIsNoAlarmWhereSurrogatesMissMostOfTheirOwnTrials) {
   EXPECT_TRUE(Disagree(2.1, 0.9));
   EXPECT_TRUE(Disagree(2.1, 0.5));
