@@ -4,7 +4,6 @@ and checks that they load nothing from elsewhere, that no script fails, that eve
 the table of trials sorts and filters. TUBE_AND_DRUM: what tube_and_drum.py has made. With SCREENSHOTS, what was seen
 stays as pictures in that folder."""
 import base64
-import fcntl
 import json
 import pathlib
 import re
@@ -12,36 +11,10 @@ import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 import zlib
 
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.support.ui import WebDriverWait
-except ImportError:
-    print("no report was opened: selenium is not installed for this Python (package python3-selenium)")
-    sys.exit(77)
-
-DRIVER = pathlib.Path("/usr/bin/chromedriver")
-MOST_SECONDS = 300  # until a page has drawn itself, on a busy machine; what hangs ends there
-
-# Pixels of a colour that is not grey: the axes and the text of a chart are grey, its data are not.
-COUNT_COLOURED = """
-const chart = echarts.getInstanceByDom(document.getElementById(arguments[0]));
-const canvas = chart.getRenderedCanvas({pixelRatio: 1, backgroundColor: "#fff"});
-const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-let count = 0;
-for (let i = 0; i < pixels.length; i += 4) {
-  const [r, g, b] = [pixels[i], pixels[i + 1], pixels[i + 2]];
-  if (Math.max(r, g, b) - Math.min(r, g, b) > 40) ++count;
-}
-return count;
-"""
+from report_page import MOST_SECONDS, By, ReportPage, WebDriverWait, main
 
 
 def grey_png(width, height):
@@ -53,106 +26,7 @@ def grey_png(width, height):
             chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-def roomy_memory():
-    """A folder in memory where there is one with a gigabyte of room: thousands of trials are journalled there at
-    once, where a disk is waited for three times as long. None: where temporary files lie."""
-    memory = pathlib.Path("/dev/shm")
-    return memory if memory.is_dir() and shutil.disk_usage(memory).free > 1e9 else None
-
-
-class ReportInABrowser(unittest.TestCase):
-    talus = maker = tube_and_drum = shots = None
-    shown = None  # the page and its width, as long as nothing has changed it
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="talus_report_", dir=roomy_memory())
-        options = Options()
-        for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     "--enable-unsafe-swiftshader",  # WebGL without a GPU
-                     "--hide-scrollbars", "--user-data-dir=" + cls.folder.name + "/profile"):
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.driver = webdriver.Chrome(service=Service(str(DRIVER)), options=options)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.driver.quit()
-        cls.folder.cleanup()
-
-    def open_report(self, name, trials, parameters, state, width=1400, coarse_design=False):
-        """A page that a test before has opened and left as it was is not opened again."""
-        campaign = pathlib.Path(self.folder.name) / name
-        if not campaign.exists():
-            subprocess.run([self.maker, campaign, str(trials), str(parameters), state] +
-                           (["coarse_design"] if coarse_design else []), check=True)
-            with open(campaign / "campaign.lock", "w") as lock:
-                if state == "running":  # somebody works on it
-                    fcntl.flock(lock, fcntl.LOCK_EX)
-                subprocess.run([self.talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
-        for log in ("browser", "performance"):
-            self.driver.get_log(log)  # what earlier pages left
-        self.was_loaded = ReportInABrowser.shown != (name, width)
-        if self.was_loaded:
-            self.driver.set_window_size(width, 1000)
-            self.driver.get((campaign / "report" / "report.html").as_uri())
-        ReportInABrowser.shown = (name, width)
-
-    def will_change_the_page(self):
-        """To be called by a test that does."""
-        def forget():
-            ReportInABrowser.shown = None
-        forget()
-        self.addCleanup(forget)
-
-    def check_log(self):
-        severe = [e["message"] for e in self.driver.get_log("browser") if e["level"] == "SEVERE"]
-        self.assertEqual(severe, [])
-        messages = [json.loads(e["message"])["message"] for e in self.driver.get_log("performance")]
-        urls = [m["params"]["request"]["url"] for m in messages
-                if m["method"] == "Network.requestWillBeSent"]
-        self.assertTrue(urls or not self.was_loaded)
-        self.assertEqual([u for u in urls if not u.startswith(("file:", "data:", "blob:"))], [])
-        standing = self.driver.find_element(By.ID, "standing").text
-        self.assertRegex(standing, r"^\w[\w ]* \d+ simulations|talus resume \S+ goes on\. \d+ sim")
-        self.assertNotRegex(standing, r"null|undefined|\[object")
-
-    def check_charts(self, only=None):
-        charts = only or self.driver.execute_script("return talusCharts.map((c) => c.id)")
-        self.assertTrue(charts)
-        for chart in charts:
-            element = self.driver.find_element(By.ID, chart)
-            self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
-            drawn = "return talusCharts.find((c) => c.id === arguments[0]).drawn"
-            end = time.monotonic() + MOST_SECONDS
-            while not self.driver.execute_script(drawn, chart) and time.monotonic() < end:
-                time.sleep(0.05)
-            self.assertTrue(self.driver.execute_script(drawn, chart), chart + " was not drawn")
-            coloured = self.driver.execute_script(COUNT_COLOURED, chart)
-            self.assertGreater(coloured, 60, chart + " shows no data")  # a point has some 30 pixels
-        return charts
-
-    def keep_screenshot(self, name):
-        if self.shots is None:
-            return
-        self.will_change_the_page()
-        height = self.driver.execute_script("return document.documentElement.scrollHeight")
-        self.driver.set_window_size(self.driver.get_window_size()["width"], height + 100)
-        time.sleep(1)
-        self.driver.save_screenshot(str(pathlib.Path(self.shots) / (name + ".png")))
-
-    def keep_first_screen(self, name):
-        if self.shots is None:
-            return
-        self.driver.save_screenshot(str(pathlib.Path(self.shots) / (name + ".png")))
-
-    def column(self, key):
-        return self.driver.execute_script(
-            "const heads = [...document.querySelectorAll('#trials th')];"
-            "const k = heads.findIndex((h) => h.dataset.key === arguments[0]);"
-            "return [...document.querySelectorAll('#trials tbody tr')].map((r) => r.cells[k].textContent)",
-            key)
-
+class ReportInABrowser(ReportPage):
     def test_finished_campaign_with_three_parameters(self):
         self.open_report("three", 60, 3, "finished")
         charts = self.check_charts()
@@ -262,9 +136,6 @@ class ReportInABrowser(unittest.TestCase):
                 self.keep_screenshot("phone_" + name)
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-
-    def numbers_of(self, path):
-        return self.driver.execute_script("return " + path)
 
     def test_posterior_is_what_the_page_shows(self):
         self.open_report("posterior", 60, 2, "finished", coarse_design=True)
@@ -610,12 +481,4 @@ class ReportInABrowser(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if not DRIVER.exists():
-        print(f"no report was opened: {DRIVER} is not there (package chromium-driver)")
-        sys.exit(77)
-    ReportInABrowser.talus, ReportInABrowser.maker, ReportInABrowser.tube_and_drum = sys.argv[1:4]
-    if len(sys.argv) > 4:
-        ReportInABrowser.shots = sys.argv[4]
-        pathlib.Path(ReportInABrowser.shots).mkdir(parents=True, exist_ok=True)
-        print("screenshots are kept in " + ReportInABrowser.shots)
-    unittest.main(argv=sys.argv[:1])
+    main(sys.argv)

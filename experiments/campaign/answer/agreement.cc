@@ -55,6 +55,7 @@ Agreement AgreementOf(const JointView& view) {
     agreement.odd = agreement.alone.back().experiments.front();
   }
   agreement.tension = Tension(sum, freedom);
+  if (agreement.tension == 0) agreement.odd.clear();
   return agreement;
 }
 

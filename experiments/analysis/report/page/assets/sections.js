@@ -5,12 +5,13 @@ function standing() {
   const parts = [searched + " simulations" + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts[0] += " and " + confirming + (confirming === 1 ? " that confirms" : " that confirm") + " the answer";
   if (failed) parts.push(failed + " failed");
-  if (running) parts.push(running + " under way");
+  if (running) parts.push(running + (c.state === "running" ? " under way" : " to be run or collected"));
   if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
     c.ended_silently ? [" ", element("code", {}, "talus resume " + c.folder), " goes on. "] : " ",
-    parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];
+    ...withCode(parts.join(" · ") +
+      (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : ""))];
 }
 
 function sensitivityTable() {
