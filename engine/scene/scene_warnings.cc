@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/text/number_text.h"
+#include "engine/laws/longest_step.h"
 #include "engine/laws/pressed_bed.h"
-#include "engine/laws/rolling_step.h"
 
 namespace talus::engine {
 
@@ -61,27 +61,44 @@ Grains GrainsOf(const SceneSpec& spec, const Scene& scene) {
   return grains;
 }
 
-// A rolling dashpot or spring that the step does not resolve.
-void AddRollingStep(const SceneSpec& spec, const Scene& scene, double dt,
-                    std::vector<std::string>& warnings) {
-  if (scene.models.rolling != Rolling::kEpsd) return;
+// What the step does not resolve, as its material's key, and less of what it needs.
+struct Unresolved {
+  const char* what;
+  const char* remedy;
+};
+
+Unresolved TextsOf(StepBound bound) {
+  switch (bound) {
+    case StepBound::kRollingDashpot:
+      return {"rolling_damping: its dashpot", "M6), or less damping"};
+    case StepBound::kRollingSpring:
+      return {"rolling_friction: its spring", "M6), or less rolling friction"};
+    case StepBound::kSlidingDashpot:
+      break;
+  }
+  return {"restitution: the friction's dashpot", "M7), or a larger restitution or Young's modulus"};
+}
+
+// Dashpots and springs that the step does not resolve.
+void AddLongStep(const SceneSpec& spec, const Scene& scene, double dt,
+                 std::vector<std::string>& warnings) {
   const Grains grains = GrainsOf(spec, scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (grains.smallest[m] == 0) continue;
     const int own = static_cast<int>(m);
     const Material material = With(scene.materials[m], StatedOf(scene.pairs, own, own));
     const double stress = BedStress(material.density, base::Norm(scene.gravity), grains.volume);
-    const RollingLimit longest = LongestRollingStep(
-        MakePairConstants(material, material, scene.models),
-        {.radius = grains.smallest[m], .density = material.density, .stress = stress});
+    const StepLimit longest =
+        LongestStep(MakePairConstants(material, material, scene.models),
+                    {.radius = grains.smallest[m], .density = material.density, .stress = stress},
+                    scene.models.rolling);
     if (dt <= longest.step) continue;
-    warnings.push_back(
-        "materials[" + std::to_string(m) + "]." +
-        (longest.is_spring ? "rolling_friction: its spring" : "rolling_damping: its dashpot") +
-        " would keep the spheres of a bed spinning at this time step "
-        "(docs/physics.md, M6): take a time_step of " +
-        base::ShortNumber(longest.step, 2) + " s or less, or less " +
-        (longest.is_spring ? "rolling friction" : "damping"));
+    const auto [what, remedy] = TextsOf(longest.bound);
+    warnings.push_back("materials[" + std::to_string(m) + "]." + what +
+                       " would keep the spheres of a bed spinning at this time step: take a "
+                       "time_step of " +
+                       base::ShortNumber(longest.step, 2) + " s or less (docs/physics.md, " +
+                       remedy);
   }
 }
 
@@ -138,7 +155,7 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
          << " of the Rayleigh time of the smallest sphere; above 0.20 contacts are resolved poorly";
     warnings.push_back(text.str());
   }
-  AddRollingStep(spec, scene, dt, warnings);
+  AddLongStep(spec, scene, dt, warnings);
   AddLateEvents(spec, dt, warnings);
   return warnings;
 }

@@ -64,16 +64,33 @@ std::string OpeningWarning(const Case& c, const Opening& opening) {
          "or several";
 }
 
-// A step that the rolling resistance shortens much costs as many more.
+struct Bound {
+  const char* what;  // allows no longer step
+  const char* less;  // of it takes fewer steps
+};
+
+Bound TextsOf(engine::StepBound bound) {
+  switch (bound) {
+    case engine::StepBound::kRollingDashpot:
+      return {"rolling dashpot", "M6); a smaller rolling_damping"};
+    case engine::StepBound::kRollingSpring:
+      return {"rolling spring", "M6); a smaller rolling_friction"};
+    case engine::StepBound::kSlidingDashpot:
+      break;
+  }
+  return {"friction's dashpot", "M7); a larger restitution or Young's modulus"};
+}
+
+// A step that the contacts shorten much costs as many more.
 std::string ShortStepWarning(const Case& c) {
   constexpr double kWorthSaying = 0.8;
   const double fraction = StepFraction(c);
   if (fraction >= kWorthSaying * c.rayleigh_fraction) return {};
+  const Bound bound = TextsOf(BoundOf(c));
   return "the time step is " + base::ShortNumber(fraction, 2) + " Rayleigh times in place of " +
-         base::ShortNumber(c.rayleigh_fraction) + ": the rolling " +
-         (IsSpringLimited(c) ? "spring" : "dashpot") +
-         " would keep grains spinning at a longer one (docs/physics.md, M6); a smaller rolling_" +
-         (IsSpringLimited(c) ? "friction" : "damping") + " takes fewer steps";
+         base::ShortNumber(c.rayleigh_fraction) + ": the " + bound.what +
+         " would keep grains spinning at a longer one (docs/physics.md, " + bound.less +
+         " takes fewer steps";
 }
 
 // Grains that are nearly as large as the gap are carried along by the spreader or stop it.

@@ -5,7 +5,6 @@
 #include "engine/bodies/particle.h"
 #include "engine/laws/pair_constants.h"
 #include "engine/laws/pressed_bed.h"
-#include "engine/laws/rolling_step.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -29,21 +28,21 @@ double SmallestRadius(const Case& c) {
   return c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).smallest() / 2;
 }
 
-engine::RollingLimit Limit(const Case& c) {
+engine::StepLimit Limit(const Case& c) {
   const engine::Material powder = GrainsOf(c);
-  return engine::LongestRollingStep(
+  return engine::LongestStep(
       engine::MakePairConstants(powder, powder, c.models),
-      {.radius = SmallestRadius(c), .density = powder.density, .stress = Stress(c)});
+      {.radius = SmallestRadius(c), .density = powder.density, .stress = Stress(c)},
+      c.models.rolling);
 }
 
 }  // namespace
 
 double StepFraction(const Case& c) {
-  if (c.models.rolling != engine::Rolling::kEpsd) return c.rayleigh_fraction;
   return std::min(c.rayleigh_fraction,
                   Limit(c).step / engine::RayleighTime(GrainsOf(c), SmallestRadius(c)));
 }
 
-bool IsSpringLimited(const Case& c) { return Limit(c).is_spring; }
+engine::StepBound BoundOf(const Case& c) { return Limit(c).bound; }
 
 }  // namespace talus::rigs

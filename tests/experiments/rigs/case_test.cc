@@ -180,8 +180,6 @@ TEST(HeapScene, WarnsWhenTheGrainsAreTooFewAcrossThePlate) {
   EXPECT_THAT(CaseWarnings(rig_case).at(0), HasSubstr("a wider tube and plate would say more"));
 }
 
-// Openings that the scale factor closes. By (D - 1.4 d)^1.5 a slot of 9 mm lets grains of 3 mm run
-// out at half the rate of those of 1 mm; the default gap is that of the true powder.
 // A strong rolling dashpot shortens the step of what is planned and of what is run alike.
 TEST(HeapScene, TakesAShorterStepWhereRollingDampingNeedsIt) {
   Case c = LoadCase(kExample);
@@ -205,6 +203,22 @@ TEST(HeapScene, TakesAShorterStepWhereRollingDampingNeedsIt) {
   EXPECT_EQ(StepFraction(c), kUsualRayleighFraction);
 }
 
+// Soft grains that hardly bounce do, with any rolling law.
+TEST(HeapScene, TakesAShorterStepWhereTheDashpotOfFrictionNeedsIt) {
+  Case c = LoadCase(kExample);
+  c.powder.material.youngs_modulus = 1e5;
+  c.powder.material.restitution = 0.2;
+  for (const auto rolling : {engine::Rolling::kEpsd, engine::Rolling::kNone}) {
+    c.models.rolling = rolling;
+    EXPECT_LT(StepFraction(c), 0.7 * kUsualRayleighFraction);
+    EXPECT_THAT(SetUpWarnings(c), Contains(HasSubstr("friction's dashpot")));
+  }
+  c.powder.material.restitution = 0.9;
+  EXPECT_EQ(StepFraction(c), kUsualRayleighFraction);
+}
+
+// Openings that the scale factor closes. By (D - 1.4 d)^1.5 a slot of 9 mm lets grains of 3 mm run
+// out at half the rate of those of 1 mm; the default gap is that of the true powder.
 TEST(HeapScene, WarnsWhenTheScaleFactorClosesAnOpening) {
   Case rig_case = LoadCase(kExample);
   rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
