@@ -111,11 +111,13 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
       all.push_back({.observable = Observable::kAngle, .undefined = "the column stands"});
       return all;
     }
-    // Between the foot of the end wall and the thin front.
+    // Between the foot of the end wall, or the top that has not moved, and the thin front.
     const double reach = front + length / 2;
-    all.push_back(AngleOf(Observable::kAngle, SurfaceOf(grains, {.from = -length / 2 + 0.2 * reach,
-                                                                 .to = -length / 2 + 0.8 * reach,
-                                                                 .width = MeanDiameter()})));
+    const SurfaceStrips middle{.from = -length / 2 + 0.2 * reach,
+                               .to = -length / 2 + 0.8 * reach,
+                               .width = MeanDiameter()};
+    all.push_back(AngleOf(Observable::kAngle,
+                          Sunken(SurfaceOf(grains, middle), {.height = state().bed.height})));
     return all;
   }
 

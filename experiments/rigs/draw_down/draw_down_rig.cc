@@ -134,9 +134,11 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
     all.push_back(
         AngleOf(Observable::kAngle,
                 SurfaceOf(heap, {.from = 0.2 * foot, .to = 0.8 * foot, .width = MeanDiameter()})));
+    // The face that the powder failed at; beyond it the top is level as it was.
+    const SurfaceStrips shelf{.from = box.slot / 2, .to = box.length / 2, .width = MeanDiameter()};
     all.push_back(AngleOf(
         Observable::kShearAngle,
-        SurfaceOf(above, {.from = box.slot / 2, .to = box.length / 2, .width = MeanDiameter()})));
+        Sunken(SurfaceOf(above, shelf), {.floor = box.height, .height = state().bed.height})));
     return all;
   }
 

@@ -32,6 +32,13 @@ std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
   return surface;
 }
 
+std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed) {
+  constexpr double kUnmoved = 0.9;
+  std::erase_if(surface,
+                [&](const SurfacePoint& p) { return p.top > bed.floor + kUnmoved * bed.height; });
+  return surface;
+}
+
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface) {
   if (surface.size() < 3) return std::nullopt;
   base::LineFit fit;

@@ -25,6 +25,15 @@ struct SurfaceStrips {
 std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
                                     const SurfaceStrips& strips);
 
+// Where a bed stood before the powder flowed.
+struct FormerBed {
+  double floor = 0;   // [m]
+  double height = 0;  // above it [m]
+};
+
+// What lies below nine tenths of the former height: the rest has not moved, and is no slope.
+std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed);
+
 // Slope of the least-squares line [-]; nothing for fewer than three points.
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface);
 

@@ -192,6 +192,19 @@ TEST(DrawDown, AGrainInTheAirIsNoSlope) {
   }
 }
 
+// In a longer box the top beyond the face stays level: the slope of both together went with the
+// box's length (42, 31 and 15 degrees of boxes of 24, 48 and 72 mm). Faces of one powder in two
+// boxes differ by what some eight strips of single grains scatter.
+TEST(DrawDown, TheFaceAboveTheSlotIsAsSteepInALongerBox) {
+  Case c = CaseOf(RigKind::kDrawDown, 0.5, 0.2, 2e-3);
+  c.rig.draw_down = {.length = 0.024, .width = 0.005, .slot = 0.009, .height = 0.02};
+  const auto filled = Ran(c);
+  c.rig.draw_down.length = 0.048;
+  c.powder.mass = 4e-3;  // as high
+  const auto longer = Ran(c);
+  EXPECT_NEAR(Value(c, *longer, "shear_angle_deg"), Value(c, *filled, "shear_angle_deg"), 6);
+}
+
 // Grains at the underside of a shelf were the top of the heap below it, and had fallen.
 TEST(DrawDown, WhatClingsToTheShelvesHasNotFallen) {
   Case c = CaseOf(RigKind::kDrawDown, 0.5, 0.05, 2e-3);
