@@ -30,6 +30,7 @@ struct Sliding {
 };
 
 Sliding SlidingOf(const PairConstants& pair, const BedGrains& grains) {
+  if (pair.sliding_friction == 0) return {};  // Coulomb's limit leaves neither (T2)
   const double mass = MassOf(grains);
   const double s = ContactRadius(pair, grains);
   return {.share = 5 * pair.tangential_damping * std::sqrt(s * mass / 2) / mass,  // N4

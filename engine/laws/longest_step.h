@@ -1,7 +1,8 @@
 // How long a step the dashpots and springs of a bed's contacts bear (docs/physics.md, M6 and M7).
 //
-// A dashpot answers to the velocity of the half step before. Of the spin of two like grains against
-// each other one contact takes in a step the share a, and its spring turns them back by the phase b
+// A dashpot answers to the velocity of the half step before. Of the spin of two like grains, of
+// rolling against each other, of sliding both the same way, one contact takes in a step the share
+// a, and its spring turns them back by the phase b
 //
 //   rolling, EPSD (R1, R3)   a = C_r Δt / I          b = √(k_r / I) Δt       1/I = 2/(0.4 m R²)
 //   sliding (N1, N4)         a = 5 η_t Δt / m        b = √(5 k_t / m) Δt     5/m = 2 R²/(0.4 m R²)
@@ -49,7 +50,7 @@ struct StepLimit {
 };
 
 // The longest step at which none of the three exceeds its bound; those of rolling count with EPSD
-// alone. Infinite where nothing resists.
+// alone. Infinite where neither friction nor rolling resistance acts.
 StepLimit LongestStep(const PairConstants& pair, const BedGrains& grains, Rolling rolling);
 
 }  // namespace talus::engine

@@ -104,7 +104,7 @@ class OutputModel {
 };
 
 // Values far above the target are compressed, so that a mass that spans decades stays smooth where
-// it matters. Linear up to the target, and to ten of its errors.
+// it matters. Nearly linear up to the target, and to ten of its errors.
 double Compress(const ScalarTarget& target, double value);
 double CompressionScale(const ScalarTarget& target);  // Compress = asinh(value / scale)
 double CompressedError(const ScalarTarget& target);   // the target's standard error, compressed

@@ -116,21 +116,30 @@ std::string OtherEngine(const JointView& first, const JointView& batch) {
 }
 
 std::string CommonPrior(const JointView& first, const JointView& batch) {
-  const auto known_to = [](const JointView& view) {
-    std::set<std::filesystem::path> folders{WholePath(view.folder.root)};
+  const auto priors_of = [](const JointView& view) {
+    std::set<std::filesystem::path> folders;
     for (const std::filesystem::path& folder : campaign::PriorFolders(view.spec)) {
       folders.insert(WholePath(folder));
     }
     return folders;
   };
-  const auto there = known_to(first), here = known_to(batch);
+  const std::string a = first.folder.root.string(), b = batch.folder.root.string();
+  const auto there = priors_of(first), here = priors_of(batch);
   const auto common = std::ranges::find_if(
       here, [&](const std::filesystem::path& folder) { return there.contains(folder); });
-  if (common == here.end()) return "";
-  const std::string both = batch.folder.root.string() + " and " + first.folder.root.string();
-  return both + ": both know the posterior of " + common->string() +
-         " by a prior, so that a difference is shown smaller than it is; calibrate without it " +
-         "(calibrate --reuse takes the simulations over)";
+  std::string which;
+  if (here.contains(WholePath(first.folder.root))) {
+    which = b + ": has the posterior of " + a + " as its prior";
+  } else if (there.contains(WholePath(batch.folder.root))) {
+    which = a + ": has the posterior of " + b + " as its prior";
+  } else if (common != here.end()) {
+    which = b + ": has the posterior of " + common->string() + " as its prior, as " + a + " has";
+  } else {
+    return "";
+  }
+  return which +
+         ", so that a difference is shown smaller than it is; calibrate without it (calibrate "
+         "--reuse takes the simulations over)";
 }
 
 std::vector<std::string> AlarmsOf(const JointView& batch) {

@@ -15,8 +15,8 @@ std::vector<std::string> AlarmsOf(const campaign::JointView& batch);
 // That the batch's trials were simulated by another engine, or by another deck of it; empty if not.
 std::string OtherEngine(const campaign::JointView& first, const campaign::JointView& batch);
 
-// That the posterior of one of the two, or of a third campaign, is a prior of what the other one
-// says: a difference is then shown smaller than it is. Empty if not.
+// That the posterior of one of the two is the other's prior, or that of a third campaign both's: a
+// difference is then shown smaller than it is. A prior's own prior is not looked at. Empty if not.
 std::string CommonPrior(const campaign::JointView& first, const campaign::JointView& batch);
 
 // What a batch's trials do otherwise than the first one's with the same parameters, in experiments

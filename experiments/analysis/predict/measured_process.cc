@@ -43,7 +43,7 @@ void RequireMeasuredBy(const PredictedCase& predicted,
 MeasuredProcess ReadData(const std::filesystem::path& path, const PredictedCase& predicted) {
   const base::JsonFile file = base::ReadJsonFile(path);
   campaign::ExperimentSpec e = base::LoadOptions<MeasuredFile>(file).experiment;
-  e.name = predicted.name;
+  e.name = "measured";  // the file has none
   e.rig = predicted.rig_case.rig;
   if (campaign::IsDrum(e.rig) && e.images.HasImages() && e.images.plate_diameter == 0) {
     e.images.plate_diameter = e.rig->drum.diameter;

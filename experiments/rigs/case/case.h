@@ -139,7 +139,7 @@ struct Case {
         "rayleigh_fraction", self.rayleigh_fraction,
         {.doc =
              "time step over Rayleigh time of the smallest grain, in (0, 0.4]; less is taken where "
-             "damping needs it (docs/physics.md, M6 and M7)"});
+             "its contacts need it (docs/physics.md, M6 and M7)"});
     visit("seed", self.seed);
     visit("frame", self.frame, {.doc = "of profile.png; without it none is written"});
     visit("num_views", self.num_views, {.doc = "silhouettes of the profile over 180 deg, > 0"});

@@ -17,9 +17,9 @@ json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer,
               const SearchTally& tally) {
   json texts = json::array();
   const int num_values = tally.num_evaluations - tally.num_failed;
-  if (tally.is_constant && num_values > 1) {
+  if (tally.is_constant && num_values > 2) {
     texts.push_back("all " + std::to_string(num_values) +
-                    " evaluations gave one value: nothing that is searched acts on it");
+                    " evaluations gave one value: what is searched may not act on it");
   } else if (tally.num_repeats > 1 && tally.num_equal_repeats == tally.num_repeats) {
     texts.push_back(
         "each of the " + std::to_string(tally.num_repeats) +

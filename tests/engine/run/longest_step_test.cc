@@ -113,6 +113,10 @@ TEST(LongestStep, TheSlidingLoadIsThatOfOneContact) {
     EXPECT_NEAR(SlidingLoad(pair, grains, longest.step), kMostSlidingLoad, 1e-9);
     EXPECT_EQ(longest.bound, StepBound::kSlidingDashpot);
   }
+  const Material smooth{.sliding_friction = 0, .rolling_friction = 0};
+  const BedGrains grains{.radius = 5e-4, .density = smooth.density, .stress = 100};
+  EXPECT_TRUE(
+      std::isinf(LongestStep(MakePairConstants(smooth, smooth, {}), grains, Rolling::kEpsd).step));
 }
 
 // At 0.30 t_R its dashpot takes 0.9 of a spin a contact: the grains chatter, and it is said. At a
@@ -144,8 +148,8 @@ double MeanHeight(const LoadedScene& loaded, const std::string& name) {
 }
 
 // Soft grains that hardly bounce: at 0.30 t_R friction's dashpots wind their spins up, the bed
-// comes to rest 6 % lower, and that is said. At the step that is advised it is as high as at a
-// third of that, within what the places of some hundred grains scatter.
+// comes to rest 4 to 6 % lower, and that is said. At the step that is advised it is as high as at a
+// third of that: seeds 1 to 6 differ by 0.0005 at most.
 TEST(LongestStep, ABedIsAsHighAsItIsWhereTheStepIsNotWarnedOf) {
   const Damping soft{.youngs_modulus = 1e5, .restitution = 0.2, .rolling_friction = 0.1};
   const LoadedScene too_long = Bed("sunken", 0.30, soft);
@@ -154,8 +158,8 @@ TEST(LongestStep, ABedIsAsHighAsItIsWhereTheStepIsNotWarnedOf) {
   const LoadedScene advised = Bed("advised", 0.16, soft);
   EXPECT_THAT(SceneWarnings(advised.spec, advised.scene), IsEmpty());
   const double height = MeanHeight(Bed("resolved", 0.05, soft), "resolved");
-  EXPECT_LT(MeanHeight(too_long, "sunken"), 0.95 * height);
-  EXPECT_NEAR(MeanHeight(advised, "advised"), height, 0.02 * height);
+  EXPECT_LT(MeanHeight(too_long, "sunken"), 0.975 * height);
+  EXPECT_NEAR(MeanHeight(advised, "advised"), height, 0.005 * height);
 }
 
 }  // namespace longest_step_test

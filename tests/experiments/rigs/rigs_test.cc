@@ -344,6 +344,8 @@ TEST(TiltingBox, WhatLeavesOverTheLipIsWeighed) {
   EXPECT_GT(left, 0);
   EXPECT_GT(stays, 0);
   EXPECT_NEAR(left + stays, 0.4e-3, 2e-6);
+  const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
+  EXPECT_THAT(result["warnings"].dump(), HasSubstr("of the powder fell off the open end"));
 }
 
 TEST(Observables, NumbersAreShownInTheUnitsThatPeopleRead) {
