@@ -1,5 +1,7 @@
 #include "experiments/analysis/predict/measured_process.h"
 
+#include <algorithm>
+
 #include "base/json/json_reader.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
@@ -45,9 +47,7 @@ MeasuredProcess ReadData(const std::filesystem::path& path, const PredictedCase&
   campaign::ExperimentSpec e = base::LoadOptions<MeasuredFile>(file).experiment;
   e.name = "measured";  // the file has none
   e.rig = predicted.rig_case.rig;
-  if (campaign::IsDrum(e.rig) && e.images.HasImages() && e.images.plate_diameter == 0) {
-    e.images.plate_diameter = e.rig->drum.diameter;
-  }
+  campaign::SetDrumDiameter(e.rig, e.images);
   MeasuredProcess measured{.numbers = campaign::ScalarsOf(e), .profile = {}};
   base::Problems problems(path.string(), file.places);
   e.Validate(problems);
@@ -93,7 +93,9 @@ MeasuredProcess ReadMeasured(const std::filesystem::path& path, const PredictedC
   } else {
     measured.profile = imaging::ReadProfile(path);
     const auto& camera = predicted.rig_case.rig.camera;
-    if (camera && camera->shows == rigs::Shown::kAny) {
+    const bool is_grey = std::ranges::any_of(measured.profile->image.pixels,
+                                             [](int level) { return level != 0 && level != 255; });
+    if (camera && camera->shows == rigs::Shown::kAny && is_grey) {
       throw base::ConfigError(path.string() +
                               ": is grey where the case's camera shows powder that any picture "
                               "has: give a JSON file with it as \"map\", and a \"threshold\"");

@@ -59,10 +59,6 @@ void RequireThreshold(const ExperimentSpec& e, const std::string& prefix,
                    "which share of the light the photographs' average is powder, such as 0.9");
 }
 
-void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images) {
-  if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
-}
-
 double FillIn(const ExperimentSpec& e) {
   const imaging::Measured fill = MeasureDrumOf(e).surface.fill;
   if (fill.defined()) return fill.value;
@@ -155,12 +151,17 @@ std::vector<std::string> ReadingTexts(const std::vector<ExperimentSpec>& experim
   return texts;
 }
 
+void SetDrumDiameter(const std::optional<rigs::RigOptions>& rig,
+                     imaging::ExperimentOptions& images) {
+  if (!IsDrum(rig) || !images.HasImages() || images.plate_diameter != 0) return;
+  images.plate_diameter = rig->drum.diameter;
+}
+
 void SetDrumDiameters(CampaignSpec& spec) {
-  if (spec.experiment && IsDrum(spec.rig)) SetDiameter(*spec.rig, *spec.experiment);
+  if (spec.experiment) SetDrumDiameter(spec.rig, *spec.experiment);
   if (!spec.experiments) return;
   for (ExperimentSpec& e : *spec.experiments) {
-    const std::optional<rigs::RigOptions>& rig = e.rig ? e.rig : spec.rig;
-    if (IsDrum(rig)) SetDiameter(*rig, e.images);
+    SetDrumDiameter(e.rig ? e.rig : spec.rig, e.images);
   }
 }
 

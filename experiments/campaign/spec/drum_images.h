@@ -34,6 +34,8 @@ std::string ReadingText(const ExperimentSpec& experiment);
 std::vector<std::string> ReadingTexts(const std::vector<ExperimentSpec>& experiments);
 
 // The width of drums' images is their rig's, where it is not given.
+void SetDrumDiameter(const std::optional<rigs::RigOptions>& rig,
+                     imaging::ExperimentOptions& images);
 void SetDrumDiameters(CampaignSpec& spec);
 
 // A drum without a mass is as full as its photographs show, which are read, unless its fill is

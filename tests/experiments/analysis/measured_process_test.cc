@@ -80,6 +80,10 @@ TEST_F(MeasuredDrumTest, PowderOfAnyPictureNeedsAThreshold) {
   for (const std::uint8_t level : any->image.pixels) EXPECT_TRUE(level == 0 || level == 255);
   EXPECT_GT(imaging::Nebp(any->image), 1.1 * imaging::Nebp(most->image));
   imaging::WriteProfile(scratch_.path() / "profile.png", *most);
+  EXPECT_TRUE(ReadMeasured(scratch_.path() / "profile.png", drum_).profile.has_value());
+  imaging::Profile grey = *most;
+  grey.image.at(0, 0) = 128;
+  imaging::WriteProfile(scratch_.path() / "profile.png", grey);
   EXPECT_THAT(ErrorIn([&] { ReadMeasured(scratch_.path() / "profile.png", drum_); }),
               HasSubstr("give a JSON file with it as \"map\", and a \"threshold\""));
 }
