@@ -21,7 +21,7 @@ namespace talus::engine {
 inline constexpr double kMostDampedShare = 0.36;
 // Heaps were those of shorter steps up to 0.79, and lower from 0.80 on (the same page).
 inline constexpr double kMostSpringPhase = 0.7;
-// Beds were as high as with shorter steps up to 1.2, lower by 2 % at 1.4 (the same page).
+// Beds were as high as with shorter steps up to 1.2, lower by 0.7 % at 1.4 (the same page).
 inline constexpr double kMostSlidingLoad = 1.1;
 
 // Like grains in a bed.

@@ -185,8 +185,8 @@ std::string LammpsRemarks(const Card& card) {
   } else if (card.models.adhesion == engine::Adhesion::kJkr) {
     text +=
         "# LAMMPS pulls beyond touch, up to 1.5 pi gamma* R*, and its dashpot and its tangential "
-        "spring "
-        "go with the radius of the JKR contact:\n# slow collisions rebound where they stick in "
+        "spring go with the radius of the JKR contact:\n# slow collisions rebound where they stick "
+        "in "
         "talus. NOT USABLE at "
         "walls "
         "in LAMMPS of 29 September 2021\n# (Debian 12): a grain that lets go of a jkr wall is at "

@@ -19,9 +19,7 @@ void ExperimentSpec::Validate(base::Problems& problems) const {
   problems.RequirePositive("mass", mass);
   if (!images.HasImages()) return;
   imaging::ExperimentOptions complete = images;
-  if (IsDrum(rig) && images.plate_diameter == 0) {
-    complete.plate_diameter = rig->drum.diameter;
-  }
+  SetDrumDiameter(rig, complete);
   complete.Validate(problems);
 }
 
