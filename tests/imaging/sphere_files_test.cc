@@ -222,6 +222,12 @@ TEST_F(SphereFilesTest, ErrorsSayWhatIsWrongAndWhere) {
   EXPECT_THAT(ErrorOf("x,y,z,r\n1,2,3,-4\n"), HasSubstr("a radius that is not positive"));
   EXPECT_THAT(ErrorOf(std::string(kDump).substr(0, std::strlen(kDump) - 25)),
               HasSubstr("step 200 ends after 1 of 2 atoms"));
+  for (const char* head :
+       {"ITEM: TIMESTEP\n300\n", "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\n",
+        "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff "
+        "ff\n0 1\n0 1\n0 1\n"}) {
+    EXPECT_THAT(ErrorOf(kDump + std::string(head)), HasSubstr("a frame ends in its head")) << head;
+  }
   EXPECT_THAT(ErrorOf("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n99999999\n"),
               HasSubstr("more than the file holds"));
   EXPECT_THAT(

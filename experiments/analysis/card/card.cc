@@ -199,14 +199,14 @@ std::vector<DrawCard> ReadDrawCards(const std::filesystem::path& folder, int cou
 }
 
 // F = k_n δ with k_n = (4/3) Y* √(R* δ)  ⇒  δ = (F / ((4/3) Y* √R*))^(2/3).
-TypicalContact TypicalContactOf(const Card& card) {
+TypicalContact TypicalContactOf(const Card& card, const engine::PairConstants& pair,
+                                Against against) {
   constexpr double kGrainWeights = 10;
-  const engine::Material powder = ActingOn(card, 0, 0);
   const double radius = card.mean_diameter / 2;
-  const double mass = engine::SphereMass(powder, radius);
-  TypicalContact contact{.pair = engine::MakePairConstants(powder, powder, card.models),
-                         .r_star = radius / 2,
-                         .m_star = mass / 2};
+  const double mass = engine::SphereMass(ActingOn(card, 0, 0), radius);
+  const double share = against == Against::kGrain ? 0.5 : 1;
+  TypicalContact contact{
+      .pair = pair, .grain_radius = radius, .r_star = share * radius, .m_star = share * mass};
   const double force = kGrainWeights * mass * card.gravity;
   const double hertz = contact.pair.normal_stiffness * std::sqrt(contact.r_star);
   const double overlap = std::pow(force / hertz, 2.0 / 3);
@@ -215,10 +215,15 @@ TypicalContact TypicalContactOf(const Card& card) {
   return contact;
 }
 
-// C_r = 2 η_r √(I* k_r), where two equal grains have I* = 0.7 m R².
+TypicalContact TypicalContactOf(const Card& card) {
+  const engine::Material powder = ActingOn(card, 0, 0);
+  return TypicalContactOf(card, engine::MakePairConstants(powder, powder, card.models),
+                          Against::kGrain);
+}
+
+// C_r = 2 η_r √(I* k_r), where I* = 1.4 m* R² of two equal grains and of one at a wall.
 double RollingDissipation(const TypicalContact& typical, double stiffness, double damping) {
-  const double radius = 2 * typical.r_star;
-  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;
+  const double inertia = 1.4 * typical.m_star * typical.grain_radius * typical.grain_radius;
   return 2 * damping * std::sqrt(inertia * stiffness) / typical.r_star;
 }
 

@@ -107,18 +107,23 @@ std::vector<DrawCard> ReadDrawCards(const std::filesystem::path& folder, int cou
 void WriteDrawCards(const std::vector<DrawCard>& cards, const std::vector<CardFormat>& formats,
                     const std::filesystem::path& folder);
 
-// Two grains of the powder, of the mean diameter, pressed together by ten times a grain's weight:
-// where a code takes a constant for what grows with the load in ours.
+// A grain of the powder, of the mean diameter, pressed by ten times its weight against another or a
+// wall: where a code takes a constant for what grows with the load in ours.
 struct TypicalContact {
   engine::PairConstants pair;
-  double r_star = 0;            // [m]
-  double m_star = 0;            // [kg]
+  double grain_radius = 0;      // R [m]
+  double r_star = 0;            // R/2, at a wall R [m]
+  double m_star = 0;            // m/2, at a wall m [kg]
   double radius = 0;            // of the contact, s = √(R*δ) [m]
   double normal_stiffness = 0;  // k_n [N/m] (N1)
 };
+enum class Against { kGrain, kWall };
+TypicalContact TypicalContactOf(const Card& card, const engine::PairConstants& pair,
+                                Against against);
+// Of two grains of the powder.
 TypicalContact TypicalContactOf(const Card& card);
 
-// C_r/R*² there of two equal grains [kg/s] (R3), by `stiffness`, k_r/R*² [N/m], and η_r.
+// C_r/R*² there [kg/s] (R3), by `stiffness`, k_r/R*² [N/m], and η_r.
 double RollingDissipation(const TypicalContact& typical, double stiffness, double damping);
 
 std::string CardText(const Card& card, CardFormat format);

@@ -5,6 +5,9 @@
 //   rolling      sds has constants where EPSD grows with the load: k_roll = k_r/R*² = 2.25 k_n μ_r²
 //                and γ_roll = C_r/R*², at the typical contact. The limit μ_r |F_n| R* is the same.
 //   γ            4πγR* of two equal surfaces in LAMMPS is 2πγ* R* here, so γ*/2 is given.
+//   walls        LAMMPS of 2022 makes E* = E/(2(1-ν)) of a wall's values and another spring of
+//                `mindlin NULL`. With 2Y* and ν = 0, and 8 G* in place of NULL, every version has
+//                ours.
 // All this is for Debian's LAMMPS of 2022. Later ones refuse tsuji with adhesion, and that of
 // 2 September 2026 damps √2 as much by it; a line for them stands beside.
 #include <cmath>
@@ -20,11 +23,12 @@ namespace {
 constexpr double kLeastTsuji = 0.01;         // LAMMPS takes what is above 0
 constexpr double kLeastRestitution = 0.126;  // what it rebounds with then: √5 β(e) = α(0.01)
 
-// The pair's own Young's modulus and Poisson's ratio: LAMMPS makes E* and G* of one pair of values.
 struct PairInput {
   const engine::Material& a;
   const engine::Material& b;
   engine::PairConstants pair;
+  TypicalContact typical;
+  Against against;
 };
 
 // The LAMMPS that a line is for.
@@ -38,12 +42,12 @@ struct Damping {
 
 // coeff_restitution is √5 β(e) itself. viscoelastic is η₀ s m*, which is ours at the typical
 // contact.
-Damping DampingOf(const Card& card, const PairInput& input, Version version) {
+Damping DampingOf(const PairInput& input, Version version) {
   const double restitution = engine::HarmonicMean(input.a.restitution, input.b.restitution);
   if (version == Version::kOf2022) return {TsujiRestitution(restitution), "tsuji"};
   if (!(input.pair.surface_energy > 0)) return {restitution, "coeff_restitution"};
-  const TypicalContact typical = TypicalContactOf(card);
-  return {input.pair.normal_damping / std::sqrt(typical.radius * typical.m_star), "viscoelastic"};
+  return {input.pair.normal_damping / std::sqrt(input.typical.radius * input.typical.m_star),
+          "viscoelastic"};
 }
 
 std::string NormalModel(const Card& card, const PairInput& input, const Damping& damping) {
@@ -51,8 +55,7 @@ std::string NormalModel(const Card& card, const PairInput& input, const Damping&
   const std::string model = !adhesive                                        ? "hertz/material "
                             : card.models.adhesion == engine::Adhesion::kDmt ? "dmt "
                                                                              : "jkr ";
-  // Equal materials give back themselves; else the values that have the pair's Y* at ν = (ν₁+ν₂)/2.
-  const double poisson = (input.a.poisson_ratio + input.b.poisson_ratio) / 2;
+  const double poisson = input.against == Against::kWall ? 0 : input.a.poisson_ratio;
   const double modulus = 2 * (1 - poisson * poisson) * input.pair.y_star;
   std::string text =
       model + CardNumber(modulus) + " " + CardNumber(damping.value) + " " + CardNumber(poisson);
@@ -62,40 +65,50 @@ std::string NormalModel(const Card& card, const PairInput& input, const Damping&
 
 std::string RollingModel(const Card& card, const PairInput& input) {
   if (card.models.rolling != engine::Rolling::kEpsd) return "rolling none";
-  const TypicalContact typical = TypicalContactOf(card);
   const double friction = input.pair.rolling_friction;
-  const double k_roll = 2.25 * typical.normal_stiffness * friction * friction;
+  const double k_roll = 2.25 * input.typical.normal_stiffness * friction * friction;
   const double damping = engine::HarmonicMean(input.a.rolling_damping, input.b.rolling_damping);
   return "rolling sds " + CardNumber(k_roll) + " " +
-         CardNumber(RollingDissipation(typical, k_roll, damping)) + " " + CardNumber(friction);
+         CardNumber(RollingDissipation(input.typical, k_roll, damping)) + " " +
+         CardNumber(friction);
 }
 
+// Of a grain of material a against another, or a wall, of material b.
 std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b,
-                      Version version = Version::kOf2022) {
-  const PairInput input{a, b, engine::MakePairConstants(a, b, card.models)};
-  const double g_star = input.pair.shear_stiffness / 8;
-  const double tangential = 2 * std::sqrt(g_star / input.pair.y_star);
-  const Damping damping = DampingOf(card, input, version);
-  return NormalModel(card, input, damping) + " tangential mindlin NULL " + CardNumber(tangential) +
-         " " + CardNumber(input.pair.sliding_friction) + " " + RollingModel(card, input) +
-         " damping " + damping.model;
+                      Against against, Version version) {
+  const engine::PairConstants pair = engine::MakePairConstants(a, b, card.models);
+  const PairInput input{a, b, pair, TypicalContactOf(card, pair, against), against};
+  const std::string spring =
+      against == Against::kWall ? CardNumber(pair.shear_stiffness) : "NULL";  // 8 G*
+  const double dashpot = 2 * std::sqrt(pair.shear_stiffness / 8 / pair.y_star);
+  const Damping damping = DampingOf(input, version);
+  return NormalModel(card, input, damping) + " tangential mindlin " + spring + " " +
+         CardNumber(dashpot) + " " + CardNumber(pair.sliding_friction) + " " +
+         RollingModel(card, input) + " damping " + damping.model;
 }
 
 // The pair's line for a LAMMPS in which the other is refused or means something else.
 std::string LaterLine(const Card& card, const engine::Material& grain) {
   const bool adhesive = engine::MakePairConstants(grain, grain, card.models).surface_energy > 0;
   return (adhesive
-              ? "# LAMMPS since 2023 refuses `damping tsuji` with adhesion. There, and "
-                "likewise at walls, the dashpot\n# of a contact that bears ten grain weights:\n"
+              ? "# LAMMPS since 2023 refuses `damping tsuji` with adhesion. There the dashpot of a "
+                "contact that bears\n# ten grain weights, at walls as they say:\n"
               : "# LAMMPS of 2 September 2026 and later damps more by `damping tsuji`. There, "
-                "and likewise at walls:\n") +
-         std::string("# pair_coeff * * ") + PairModel(card, grain, grain, Version::kLater) + "\n";
+                "at walls as they say:\n") +
+         std::string("# pair_coeff * * ") +
+         PairModel(card, grain, grain, Against::kGrain, Version::kLater) + "\n";
 }
 
-// "fix plate2 all wall/gran/region granular … region plate2": of a body of this material.
+// "fix plate2 all wall/gran/region granular … region plate2", of a body of this material, and the
+// line for later versions below.
 std::string WallLaw(const Card& card, const std::string& id, std::size_t wall) {
-  return "fix " + id + " all wall/gran/region granular " +
-         PairModel(card, ActingOn(card, 0, wall), ActingOn(card, wall, 0)) + " region " + id;
+  const auto line = [&](Version version) {
+    return "fix " + id + " all wall/gran/region granular " +
+           PairModel(card, ActingOn(card, 0, wall), ActingOn(card, wall, 0), Against::kWall,
+                     version) +
+           " region " + id + "\n";
+  };
+  return line(Version::kOf2022) + "#   later: " + line(Version::kLater);
 }
 
 // Tube and plate of the lifted tube, ready to be uncommented.
@@ -111,8 +124,8 @@ std::string LammpsTube(const Card& card, const CardTest& test) {
          "\n# region tube" + mark + " cylinder z 0 0 " + radius + " 0 " + height +
          " side in open 1 open 2" + moves + "\n# region plate" + mark + " cylinder z 0 0 " +
          CardNumber(device.plate_diameter / 2) + " -" + CardNumber(device.plate_height) +
-         " 0 side out\n# " + WallLaw(card, "tube" + mark, test.tube) + "\n# " +
-         WallLaw(card, "plate" + mark, test.plate) + "\n";
+         " 0 side out\n# " + WallLaw(card, "tube" + mark, test.tube) + "# " +
+         WallLaw(card, "plate" + mark, test.plate);
 }
 
 // Rigs other than the lifted tube have the laws of their walls alone.
@@ -126,7 +139,7 @@ std::string LammpsWalls(const Card& card) {
     const std::string mark = TestMark(card, test);
     text += "# walls of " + (card.tests.size() == 1 ? "the vessel" : base::OneLine(test.name)) +
             ": " + WallLaw(card, "tube" + mark, test.tube) +
-            "\n# floor: " + WallLaw(card, "plate" + mark, test.plate) + "\n";
+            "# floor: " + WallLaw(card, "plate" + mark, test.plate);
   }
   return text;
 }
@@ -185,22 +198,19 @@ std::string LammpsRemarks(const Card& card) {
   } else if (card.models.adhesion == engine::Adhesion::kJkr) {
     text +=
         "# LAMMPS pulls beyond touch, up to 1.5 pi gamma* R*, and its dashpot and its tangential "
-        "spring go with the radius of the JKR contact:\n# slow collisions rebound where they stick "
-        "in "
-        "talus. NOT USABLE at "
-        "walls "
-        "in LAMMPS of 29 September 2021\n# (Debian 12): a grain that lets go of a jkr wall is at "
-        "nan "
-        "from then on. Take dmt for the walls, or a later LAMMPS.\n";
+        "spring go with the radius of the JKR contact:\n# slow collisions stick, or rebound less, "
+        "where they rebound in talus. NOT USABLE at walls in LAMMPS of\n# 29 September 2021 "
+        "(Debian 12): a grain that lets go of a jkr wall is at nan from then on. Take dmt for the "
+        "walls,\n# or a later LAMMPS.\n";
     if (card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
       text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
     }
   }
   if (card.models.rolling == engine::Rolling::kEpsd) {
     text +=
-        "# rolling sds: stiffness and damping of a contact that bears ten grain weights; its limit "
-        "caps spring\n# and dashpot together. At walls, too, those of two grains: the spring is a "
-        "quarter stiffer than ours there.\n";
+        "# rolling sds: stiffness and damping of a contact that bears ten grain weights, which do "
+        "not grow with the load;\n# its limit caps spring and dashpot together. After a grazing "
+        "impact a grain spins up to a half faster than in talus.\n";
   } else if (card.models.rolling != engine::Rolling::kNone) {
     text += RollingNotIncluded(card, "LAMMPS", "# ");
   }
@@ -235,7 +245,8 @@ std::string LammpsCard(const Card& card) {
        << CardNumber(ActingOn(card, 0, 0).restitution) << "\n"
        << "pair_style granular\n";
   const engine::Material grain = ActingOn(card, 0, 0);
-  text << "pair_coeff * * " << PairModel(card, grain, grain) << "\n"
+  text << "pair_coeff * * " << PairModel(card, grain, grain, Against::kGrain, Version::kOf2022)
+       << "\n"
        << LaterLine(card, grain) << LammpsWalls(card) << LammpsSizes(card);
   text << "timestep " << CardNumber(card.time_step) << "\n";
   return text.str();

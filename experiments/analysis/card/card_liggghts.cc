@@ -79,6 +79,9 @@ std::string LiggghtsRemarks(const Card& card) {
   if (card.models.rolling == engine::Rolling::kViscous) {
     text += RollingNotIncluded(card, "LIGGGHTS", "# ");
   }
+  if (card.models.rolling == engine::Rolling::kConstant) {
+    text += "# cdt limits rolling by the spring's normal force, talus by that with the dashpot.\n";
+  }
   const bool damped = card.models.full_mobilisation_damping > 0;
   if (card.models.rolling == engine::Rolling::kEpsd && damped) {
     text +=

@@ -21,13 +21,15 @@ std::string MercuryDpmCard(const Card& card) {
   std::ostringstream text;
   text << CardHead(card, "MercuryDPM", "// ") << WallsNotIncluded(card, "// ")
        << PairsNotIncluded(card, 1, "// ")
-       << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's).\n";
+       << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's). Sliding "
+          "limits the spring alone, in talus spring and dashpot.\n";
   if (rolls) {
     text << "// Rolling dissipation of a contact that bears ten grain weights. The rolling spring "
             "is the tangential one\n// and cannot be set: here "
          << base::ShortNumber(1.5 * typical.pair.shear_stiffness / typical.pair.rolling_stiffness,
                               2)
-         << " times as stiff as that of the calibrated law.\n";
+         << " times as stiff as that of the calibrated law. Versions whose arm of rolling is 2 R* "
+            "need\n// half of that friction and a quarter of that dissipation.\n";
   }
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text << "// NOT INCLUDED: the adhesion; choose an adhesive species and calibrate with it.\n";

@@ -71,8 +71,8 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
        << ", for " << code << ". SI units.\n"
        << mark << "Holds together with: scale factor " << CardNumber(card.scale_factor)
        << " (grains of " << CardNumber(card.mean_diameter * 1e3)
-       << " mm, D50), Young's modulus as below, time step up to " << CardNumber(card.time_step)
-       << " s,\n"
+       << " mm, D50), Young's modulus as below, gravity " << CardNumber(card.gravity)
+       << " m/s2, time step up to " << CardNumber(card.time_step) << " s,\n"
        << mark << "and the tests that it comes from:\n";
   for (const CardTest& test : card.tests) text << mark << "  " << TestText(test) << "\n";
   text << mark << "Grains as simulated (diameter in mm, share of the volume):";
@@ -178,6 +178,7 @@ std::string JsonCard(const Card& card) {
                               {"scale_factor", card.scale_factor},
                               {"surface_energy_given_J_per_m2", card.surface_energy_given},
                               {"mean_diameter_m", card.mean_diameter},
+                              {"gravity_m_per_s2", card.gravity},
                               {"time_step_s", card.time_step},
                               {"models", base::ToJson(card.models)},
                               {"mixing", "harmonic mean 2ab/(a+b)"}};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text/joined.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
@@ -58,13 +59,21 @@ std::string YadeCard(const Card& card) {
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   const bool adheres = card.models.adhesion == engine::Adhesion::kDmt;
   std::ostringstream text;
-  text << CardHead(card, "YADE (HertzMindlin)", "# ") << WallsNotIncluded(card, "# ")
-       << PairsNotIncluded(card, 1, "# ")
-       << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; at a Wall mu_r, "
-          "at facets 2 mu_r/3);\n"
-       << "# krot of a contact that bears ten grain weights. YADE's spring in rolling has no "
-          "dashpot, and its normal force\n"
-       << "# is cut at zero: it rebounds with 0.90 for 0.9, 0.63 for 0.6, 0.40 for 0.3.\n";
+  text
+      << CardHead(card, "YADE (HertzMindlin)", "# ") << WallsNotIncluded(card, "# ")
+      << PairsNotIncluded(card, 1, "# ")
+      << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; at a Wall mu_r, "
+         "at facets 2 mu_r/3);\n"
+      << "# krot of two grains of D50 that bear ten grain weights: a constant, which is a fifth of "
+         "ours at a Wall and a tenth for\n"
+      << "# grains of twice the size. YADE's spring in rolling has no dashpot, and its normal "
+         "force is cut at zero: it rebounds\n"
+      << "# with 0.90 for 0.9, 0.63 for 0.6, 0.40 for 0.3. Sliding limits the spring alone, in "
+         "talus spring and dashpot; es is not read:\n"
+      << "# YADE's dashpot in sliding is that of the normal, "
+      << base::ShortNumber(0.5 / std::sqrt(typical.pair.shear_stiffness / 8 / typical.pair.y_star),
+                           3)
+      << " times ours.\n";
   if (!rolls && card.models.rolling != engine::Rolling::kNone) {
     text << RollingNotIncluded(card, "YADE", "# ");
   }

@@ -78,12 +78,17 @@ bool ReadSection(TextCursor& cursor, std::string_view section, DumpFrame& frame)
 // Leaves the cursor after the frame's rows; false when the text has no further frame.
 bool NextFrame(TextCursor& cursor, DumpFrame& frame) {
   constexpr std::string_view kItem = "ITEM: ";
+  bool begun = false;
   bool found = false;
   while (!found) {
-    if (cursor.AtEnd()) return false;
+    if (cursor.AtEnd()) {
+      if (!begun) return false;
+      cursor.Fail("a frame ends in its head; was the simulation cut off while it wrote?");
+    }
     const std::string_view line = cursor.Line();
     if (Trimmed(line).empty()) continue;
     if (!line.starts_with(kItem)) cursor.Fail("an \"ITEM:\" line is expected here");
+    begun = true;
     found = ReadSection(cursor, Trimmed(line.substr(kItem.size())), frame);
   }
   frame.atoms = cursor.position();
