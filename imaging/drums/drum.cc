@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/sample.h"
 #include "base/text/plain_number.h"
 #include "base/units.h"
 #include "imaging/formats/images/photograph_file.h"
@@ -184,12 +185,27 @@ double SurfaceSd(const std::vector<DrumSurface>& surfaces) {
   return columns > 0 ? sum / columns : 0;
 }
 
-double AngleError(const std::vector<DrumSurface>& surfaces) {
-  std::vector<double> angles;
+std::vector<double> ValuesOf(const std::vector<DrumSurface>& surfaces,
+                             Measured DrumSurface::*number) {
+  std::vector<double> values;
   for (const DrumSurface& surface : surfaces) {
-    if (surface.slope_angle.defined()) angles.push_back(surface.slope_angle.value);
+    if ((surface.*number).defined()) values.push_back((surface.*number).value);
   }
-  return StandardError(angles);
+  return values;
+}
+
+// As the rig has them, the means of the pictures' own: where few of them differ much, as in a drum
+// that avalanches, the mean picture has the surface of most.
+void TakeMeans(const std::vector<DrumSurface>& each, MeasuredDrum& drum) {
+  const std::vector<double> angles = ValuesOf(each, &DrumSurface::slope_angle);
+  const std::vector<double> fills = ValuesOf(each, &DrumSurface::fill);
+  if (!angles.empty() && drum.angle.defined()) {
+    drum.angle.value = std::abs(base::SampleOf(angles).mean);
+    drum.angle.standard_error = StandardError(angles);
+  }
+  if (!fills.empty() && drum.surface.fill.defined()) {
+    drum.surface.fill.value = base::SampleOf(fills).mean;
+  }
 }
 
 // A slope this far to either side is no flat surface's scatter [rad].
@@ -305,7 +321,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   for (const GrayImage& image : photos.images)
     each.push_back(MeasureSurface(MapOf(image, place, name)));
   RequireOneTurning(each, options.photos);
-  drum.angle.standard_error = AngleError(each);
+  TakeMeans(each, drum);
   drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
   return drum;
 }

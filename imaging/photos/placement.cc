@@ -47,10 +47,8 @@ Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& 
                           .center_x = given.center_x / block,
                           .baseline = given.baseline / block,
                           .tilt = options.tilt});
-  if (options.pixel_size || block > 1) {
-    placement.frame = FrameFor(options, collection, placement);
-    placement.frame.table = given.table;
-  }
+  placement.frame = FrameFor(options, collection, placement);
+  placement.frame.table = given.table;
   return placement;
 }
 

@@ -1,4 +1,4 @@
-// Photographs are turned upright as their files say.
+// Photographs are turned upright, and their levels made light, as their files say.
 #include <gtest/gtest.h>
 
 #include "base/files/file.h"
@@ -90,18 +90,26 @@ TEST(ImageOrientation, DamagedExifLeavesTheImageAsItIs) {
   EXPECT_EQ(ExifOrientation(Exif(9, false)), kUpright);
 }
 
-// A structure whose only tag is the place of a second directory, and that one's the time.
+// A structure whose only tag is the place of a second directory, and that one's a tag of its own.
+std::string ExifWith(std::uint32_t tag, std::uint32_t type, std::uint32_t count,
+                     std::uint32_t value, bool big_endian) {
+  const auto number = [&](std::uint32_t n, int size) { return Number(n, size, big_endian); };
+  return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) +
+         // The first directory, whose end is the second one's place.
+         number(1, 2) + number(0x8769, 2) + number(4, 2) + number(1, 4) + number(26, 4) +
+         number(0, 4) +
+         // The second.
+         number(1, 2) + number(tag, 2) + number(type, 2) + number(count, 4) + number(value, 4) +
+         number(0, 4);
+}
+
 std::string ExifWithTime(bool big_endian) {
-  const auto number = [&](std::uint32_t value, int size) {
-    return Number(value, size, big_endian);
-  };
-  const auto directory = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count,
-                             std::uint32_t value) {
-    return number(1, 2) + number(tag, 2) + number(type, 2) + number(count, 4) + number(value, 4) +
-           number(0, 4);
-  };
-  return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) + directory(0x8769, 4, 1, 26) +
-         directory(0x9003, 2, 20, 44) + "2026:01:31 17:05:09";
+  return ExifWith(0x9003, 2, 20, 44, big_endian) + "2026:01:31 17:05:09";
+}
+
+// A number of 16 bits stands at the left of its four bytes.
+std::string ExifWithSpace(std::uint32_t space, bool big_endian) {
+  return ExifWith(0xA001, 3, 1, big_endian ? space << 16 : space, big_endian);
 }
 
 TEST(ImageOrientation, TimeOfExposureIsReadAndADamagedOneIsNotKnown) {
@@ -113,6 +121,21 @@ TEST(ImageOrientation, TimeOfExposureIsReadAndADamagedOneIsNotKnown) {
     }
   }
   EXPECT_EQ(ExifTime(Exif(6, true)), std::nullopt);
+}
+
+TEST(ImageOrientation, AColourSpaceOfDisplaysIsTold) {
+  for (const bool big_endian : {false, true}) {
+    for (const std::uint32_t space : {1U, 0xFFFFU}) {
+      const std::string exif = ExifWithSpace(space, big_endian);
+      EXPECT_TRUE(ExifIsForDisplay(exif));
+      for (std::size_t size = 0; size + 6 < exif.size(); ++size) {
+        EXPECT_FALSE(ExifIsForDisplay(exif.substr(0, size))) << size;
+      }
+    }
+    EXPECT_FALSE(ExifIsForDisplay(ExifWithSpace(2, big_endian)));
+    EXPECT_FALSE(ExifIsForDisplay(ExifWithTime(big_endian)));
+  }
+  EXPECT_FALSE(ExifIsForDisplay(Exif(6, true)));
 }
 
 std::string PngWith(const std::string& exif, const GrayImage& stored) {
@@ -139,6 +162,17 @@ TEST(ImageOrientation, APhotographKnowsWhenItWasTaken) {
   EXPECT_EQ(ReadPhotograph(TempFile("taken.png")).taken, 1769879109);
   EXPECT_EQ(ReadPhotograph(TempFile("taken.jpg")).taken, 1769879109);
   EXPECT_EQ(ReadPhotograph(TempFile("undated.jpg")).taken, std::nullopt);
+}
+
+// The curve of sRGB has 188 where half of the light is. A map of coverage has no light in it.
+TEST(ImageOrientation, LevelsForADisplayBecomeLight) {
+  const GrayImage levels{.width = 4, .height = 1, .pixels = {0, 99, 188, 255}};
+  base::WriteFileAtomically(TempFile("camera.png"), PngWith(ExifWithSpace(1, true), levels));
+  base::WriteFileAtomically(TempFile("plain.png"), PngWith(ExifWithTime(true), levels));
+  const std::vector<std::uint8_t> light{0, 32, 128, 255};
+  EXPECT_EQ(ReadPhotograph(TempFile("camera.png")).image.pixels, light);
+  EXPECT_EQ(ReadPhotograph(TempFile("plain.png")).image, levels);
+  EXPECT_EQ(ReadGrayImage(TempFile("camera.png")), levels);
 }
 
 // 8 bits go through libtiff's own conversion, which must not turn a second time; 16 bits do not.

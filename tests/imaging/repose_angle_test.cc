@@ -10,6 +10,7 @@
 
 #include "imaging/formats/images/image_file.h"
 #include "imaging/photos/experiment.h"
+#include "imaging/spheres/projection.h"
 #include "tests/imaging/synthetic_photo.h"
 
 namespace talus::imaging {
@@ -184,6 +185,28 @@ void ExpectNoAngle(const ReposeAngles& angles, const std::string& reason) {
       EXPECT_NE(measured->not_defined.find(reason), std::string::npos) << measured->not_defined;
     }
   }
+}
+
+Height Cone(double degrees) {
+  return [degrees](double x) {
+    return std::max(0.0, (kBase / 2 - std::abs(x)) * std::tan(degrees * kDegree));
+  };
+}
+
+// Half of an even number of silhouettes have powder over a whole strip: the outline was that of the
+// lower ones, 28 for 28 and 34 degrees.
+TEST(MeanOfFewSilhouettes, HasTheMeanAngle) {
+  const auto mean_of = [](std::initializer_list<double> degrees) {
+    std::vector<GrayImage> images;
+    for (const double angle : degrees) images.push_back(Silhouette(Cone(angle)));
+    return MeasureRepose(MeanImage(images), SmallFrame());
+  };
+  for (const std::size_t method : {1, 2}) {
+    EXPECT_NEAR(mean_of({28, 34})[method].mean.value / kDegree, 31, 0.3) << method;
+    EXPECT_NEAR(mean_of({26, 28, 34, 36})[method].mean.value / kDegree, 31, 0.3) << method;
+    EXPECT_NEAR(mean_of({28, 31, 34})[method].mean.value / kDegree, 31, 0.2) << method;
+  }
+  EXPECT_NEAR(mean_of({28, 34})[0].mean.value / kDegree, 31, 0.7);  // by its single top
 }
 
 // Round caps of few rows. A degree: a row of eight, on a base of 80 px, is one and a half.

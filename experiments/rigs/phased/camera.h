@@ -40,7 +40,7 @@ std::string PictureFile(int picture);
 
 // How much the surface moves: ∫ √(p (1 - p)) dA / D, over the picture, D the width that it is
 // scaled by; of a film the mean over its pictures. Level surfaces whose heights are normally
-// distributed give 1.62 of their standard deviations.
+// distributed give 1.61 of their standard deviations, in 20 pictures 1.36.
 Reading CohesiveIndex(const CameraMemory& memory, const imaging::Frame& frame,
                       const CameraOptions& camera);
 

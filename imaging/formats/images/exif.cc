@@ -12,6 +12,9 @@ namespace {
 constexpr std::uint32_t kOrientationTag = 0x0112;
 constexpr std::uint32_t kFurtherTags = 0x8769;  // the place of a directory with more of them
 constexpr std::uint32_t kTimeTag = 0x9003;
+constexpr std::uint32_t kColorSpaceTag = 0xA001;
+constexpr std::uint32_t kSrgb = 1;
+constexpr std::uint32_t kOtherSpace = 0xFFFF;  // Adobe RGB and Display P3, whose curves are near
 constexpr std::uint32_t kShortType = 3;
 constexpr std::size_t kEntrySize = 12;  // tag 2, type 2, count 4, value or its place 4 [bytes]
 
@@ -43,6 +46,10 @@ class TiffBytes {
     return std::nullopt;
   }
   std::optional<std::size_t> Entry(std::uint32_t tag) const { return Entry(Number(4, 4), tag); }
+  std::optional<std::size_t> FurtherEntry(std::uint32_t tag) const {
+    const auto further = Entry(kFurtherTags);
+    return further ? Entry(Number(*further + 8, 4), tag) : std::nullopt;
+  }
 
  private:
   std::string_view bytes_;
@@ -96,13 +103,19 @@ int ExifOrientation(std::string_view tiff) {
 std::optional<std::int64_t> ExifTime(std::string_view tiff) {
   constexpr std::size_t kLength = 19;
   const TiffBytes bytes(tiff);
-  const auto further = bytes.Entry(kFurtherTags);
-  if (!further) return std::nullopt;
-  const auto entry = bytes.Entry(bytes.Number(*further + 8, 4), kTimeTag);
+  const auto entry = bytes.FurtherEntry(kTimeTag);
   if (!entry) return std::nullopt;
   const auto place = bytes.Number(*entry + 8, 4);
   if (!place || *place > tiff.size()) return std::nullopt;
   return TimeIn(tiff.substr(*place, kLength));
+}
+
+bool ExifIsForDisplay(std::string_view tiff) {
+  const TiffBytes bytes(tiff);
+  const auto entry = bytes.FurtherEntry(kColorSpaceTag);
+  if (!entry || bytes.Number(*entry + 2, 2) != kShortType) return false;
+  const auto space = bytes.Number(*entry + 8, 2);
+  return space == kSrgb || space == kOtherSpace;
 }
 
 std::optional<std::int64_t> TimeIn(std::string_view text) {

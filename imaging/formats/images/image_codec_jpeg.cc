@@ -69,7 +69,8 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .channels = 1,
                  .bits = 8,
                  .orientation = ExifOrientation(ExifOf(jpeg)),
-                 .taken = ExifTime(ExifOf(jpeg))};
+                 .taken = ExifTime(ExifOf(jpeg)),
+                 .is_for_display = ExifIsForDisplay(ExifOf(jpeg))};
   image.Reserve();
   std::vector<JSAMPLE> row(jpeg.output_width);
   while (jpeg.output_scanline < jpeg.output_height) {

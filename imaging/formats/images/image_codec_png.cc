@@ -92,6 +92,7 @@ void AddExif(PngReader& reader, RawImage& image) {
   const std::string_view exif(reinterpret_cast<const char*>(bytes), size);
   image.orientation = ExifOrientation(exif);
   image.taken = ExifTime(exif);
+  image.is_for_display = ExifIsForDisplay(exif);
 }
 
 void Append(png_structp png, png_bytep data, png_size_t count) {

@@ -25,6 +25,7 @@ struct RawImage {
   int bits = 8;                         // 8 or 16
   int orientation = kUpright;           // how the camera was held, as EXIF numbers it
   std::optional<std::int64_t> taken{};  // ExifTime
+  bool is_for_display = false;          // ExifIsForDisplay
   double white = 0;                     // sample of 16 bits that is white; 0: not known
   std::uint16_t largest = 0;            // sample of 16 bits that is not alpha
   std::vector<std::uint8_t> gray{};     // empty where white is not known
@@ -42,13 +43,14 @@ RawImage DecodePgm(std::string_view bytes, const std::string& name, double white
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name);
 RawImage DecodeBmp(std::string_view bytes, const std::string& name);
 
-// A file of any of these formats as ReadGrayImage has it, and when it was taken by the camera's
-// clock [s]; JPEG and PNG may say it.
-struct DatedImage {
+// A file of any of these formats as ReadGrayImage has it, with what JPEG and PNG may say of it:
+// when it was taken by the camera's clock [s], and whether its levels are coded for a display.
+struct CameraImage {
   GrayImage image;
   std::optional<std::int64_t> taken{};
+  bool is_for_display = false;
 };
-DatedImage ReadDatedImage(const std::filesystem::path& path);
+CameraImage ReadCameraImage(const std::filesystem::path& path);
 
 struct ImageSize {
   std::int64_t width = 0;     // [px]

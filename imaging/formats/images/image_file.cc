@@ -32,13 +32,14 @@ double WhiteOf(std::uint16_t largest) {
   return 65535;
 }
 
-DatedImage DecodeDated(std::string_view bytes, const std::string& name) {
+CameraImage DecodeCamera(std::string_view bytes, const std::string& name) {
   RawImage raw = Decode(bytes, name, 0);
   if (raw.bits == 16 && raw.white == 0) raw = Decode(bytes, name, WhiteOf(raw.largest));
   return {
       .image = Upright({.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)},
                        raw.orientation),
-      .taken = raw.taken};
+      .taken = raw.taken,
+      .is_for_display = raw.is_for_display};
 }
 
 template <class Image>
@@ -49,14 +50,14 @@ void WriteAnyPng(const std::filesystem::path& path, const Image& image) {
 }  // namespace
 
 GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
-  return DecodeDated(bytes, name).image;
+  return DecodeCamera(bytes, name).image;
 }
 
-DatedImage ReadDatedImage(const std::filesystem::path& path) {
-  return DecodeDated(base::ReadFile(path), path.string());
+CameraImage ReadCameraImage(const std::filesystem::path& path) {
+  return DecodeCamera(base::ReadFile(path), path.string());
 }
 
-GrayImage ReadGrayImage(const std::filesystem::path& path) { return ReadDatedImage(path).image; }
+GrayImage ReadGrayImage(const std::filesystem::path& path) { return ReadCameraImage(path).image; }
 
 void WritePng(const std::filesystem::path& path, const GrayImage& image) {
   WriteAnyPng(path, image);

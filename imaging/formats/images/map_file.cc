@@ -1,9 +1,12 @@
 #include "imaging/formats/images/map_file.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/heap_shape.h"
+#include "imaging/heap/outline.h"
 
 namespace talus::imaging {
 namespace {
@@ -36,6 +39,23 @@ Base FindBase(const GrayImage& image) {
   return base;
 }
 
+// Left and right end of the plate [px]. The centres of the lowest row lie half a row above it, by
+// which slopes of 20 degrees have moved 1.4 px; they are drawn on by the two lowest rows. Of a heap
+// that overhangs powder of some views hangs over the rim: there the columns of nearly every view
+// count.
+std::pair<double, double> Ends(const GrayImage& image, const Base& base) {
+  constexpr double kOverhangs = 1;  // [px]
+  const Outline outline = FindOutline(
+      image, {.width = image.width, .height = image.height, .baseline = base.row + 1.0});
+  const Overhang overhang = FindOverhang(outline);
+  if (outline.rows.size() < 2 || std::max(overhang.left, overhang.right) > kOverhangs) {
+    return {base.first, base.last + 1};
+  }
+  const RowExtent& lowest = outline.rows[0];
+  const RowExtent& next = outline.rows[1];
+  return {1.5 * lowest.left - 0.5 * next.left, 1.5 * lowest.right - 0.5 * next.right};
+}
+
 Frame FindFrame(const GrayImage& image, double plate_diameter, const std::string& name) {
   const Base base = FindBase(image);
   if (base.row < 0) {
@@ -53,10 +73,11 @@ Frame FindFrame(const GrayImage& image, double plate_diameter, const std::string
                             "mean powder: invert the map, cut away what is below the base, "
                             "or give the place of the plate with \"frame\"");
   }
+  const auto [left, right] = Ends(image, base);
   return {.width = image.width,
           .height = image.height,
-          .pixel_size = plate_diameter / width,
-          .center_x = (base.first + base.last + 1) / 2.0,
+          .pixel_size = plate_diameter / (right - left),
+          .center_x = (left + right) / 2,
           .baseline = base.row + 1.0,
           .plate_diameter = plate_diameter};
 }

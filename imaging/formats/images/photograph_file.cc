@@ -1,5 +1,6 @@
 #include "imaging/formats/images/photograph_file.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,17 @@ constexpr double kMostPixels = 25e6;
 
 int BlockFor(const GrayImage& image) {
   return static_cast<int>(std::ceil(std::sqrt(image.pixels.size() / kMostPixels)));
+}
+
+// The curve of sRGB (IEC 61966-2-1), turned back.
+void MakeLinear(GrayImage& image) {
+  std::array<std::uint8_t, 256> light{};
+  for (std::size_t level = 0; level < light.size(); ++level) {
+    const double v = static_cast<double>(level) / 255;
+    const double share = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    light[level] = static_cast<std::uint8_t>(std::lround(255 * share));
+  }
+  for (std::uint8_t& pixel : image.pixels) pixel = light[pixel];
 }
 
 }  // namespace
@@ -39,7 +51,8 @@ GrayImage Reduced(const GrayImage& image, int block) {
 }
 
 Photograph ReadPhotograph(const std::filesystem::path& path) {
-  DatedImage read = ReadDatedImage(path);
+  CameraImage read = ReadCameraImage(path);
+  if (read.is_for_display) MakeLinear(read.image);
   Photograph photo{.image = std::move(read.image), .taken = read.taken};
   photo.width = photo.image.width;
   photo.height = photo.image.height;
