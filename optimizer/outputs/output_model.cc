@@ -230,14 +230,38 @@ void OutputModel::AddFantasy(const Eigen::VectorXd& x, int level) {
   }
 }
 
+namespace {
+
+// The mean miss of the nearest others of the same scale factor; its own where there are none.
+double MissRound(const OutputData& data, std::span<const double> misses, std::size_t row,
+                 std::size_t count) {
+  constexpr std::size_t kNearest = 20;
+  std::vector<std::pair<double, std::size_t>> others;  // squared distance, row
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == row || data.level[i] != data.level[row]) continue;
+    others.emplace_back((data.points[i] - data.points[row]).squaredNorm(), i);
+  }
+  if (others.empty()) return misses[row];
+  const std::size_t size = std::min(kNearest, others.size());
+  std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(size),
+                    others.end());
+  double sum = 0;
+  for (std::size_t i = 0; i < size; ++i) sum += misses[others[i].second];
+  return sum / static_cast<double>(size);
+}
+
+}  // namespace
+
 std::vector<std::size_t> RowsToModel(const OutputData& data, std::span<const double> misses,
                                      int count) {
   std::vector<std::size_t> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (count <= kMostEvaluations) return order;
+  std::vector<double> round;
+  for (const std::size_t row : order) round.push_back(MissRound(data, misses, row, order.size()));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (data.level[a] != data.level[b]) return data.level[a] > data.level[b];
-    return misses[a] < misses[b];
+    return round[a] < round[b];
   });
   constexpr std::size_t kHalf = kMostEvaluations / 2;
   std::vector<std::size_t> chosen(order.begin(), order.begin() + kHalf);

@@ -113,8 +113,10 @@ double CompressedError(const ScalarTarget& target);   // the target's standard e
 inline constexpr int kMostEvaluations = 400;
 
 // Rows of the first `count` of `data`, or of kMostEvaluations of these: one half are those that
-// tell the answer most, of the finest scale factor and then of the lowest miss, and the other half
-// are spread evenly over the rest, in their order. `misses`: one an evaluation, not NaN.
+// tell the answer most, of the finest scale factor and then where the others nearby miss least, and
+// the other half are spread evenly over the rest, in their order. Its own miss would choose an
+// evaluation by its noise, of which the model would then know too little. `misses`: one an
+// evaluation, not NaN.
 std::vector<std::size_t> RowsToModel(const OutputData& data, std::span<const double> misses,
                                      int count);
 OutputData Modelled(const OutputData& data, std::span<const std::size_t> rows);

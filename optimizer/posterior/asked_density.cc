@@ -20,6 +20,8 @@ constexpr int kDraws = 1000;          // of a sample of what is asked for
 constexpr int kEven = 500;            // points that tell a region's volume to some 3 % of it
 constexpr Eigen::Index kBlock = 200;  // points whose nodes are evaluated at a time
 constexpr double kLeast = 1e-8;  // variance: coordinates that are tied or hardly move have some
+constexpr double kWidth = 0.25;  // of the second regression's weights / spread of the draws
+constexpr double kGlobal = 5;    // draws near a that the first one counts as
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::Index d = covariance.rows();
@@ -43,53 +45,87 @@ AskedDensity::AskedDensity(LogDensityFunction density, const Domain& domain,
   normals_ = num_nuisances == 0
                  ? Eigen::MatrixXd(1, 0)
                  : MirroredNormals(kNodes / 2, num_nuisances, {seed, base::Stream("nuisances")});
+  if (num_nuisances == 0) return;
   const Eigen::RowVectorXd mean = joint.weight.transpose() * joint.points;
   const Eigen::MatrixXd centred = joint.points.rowwise() - mean;
   const Eigen::MatrixXd covariance = centred.transpose() * joint.weight.asDiagonal() * centred;
   const auto& n = domain_.nuisances;
+  all_ = {.mean = mean.transpose()(n), .root = RootOf(covariance(n, n))};
   asked_mean_ = mean.transpose()(asked_);
-  mean_ = mean.transpose()(n);
   const auto num_asked = static_cast<Eigen::Index>(asked_.size());
   const Eigen::MatrixXd of_asked = Eigen::MatrixXd(covariance(asked_, asked_)) +
                                    kLeast * Eigen::MatrixXd::Identity(num_asked, num_asked);
-  slope_ = of_asked.ldlt().solve(Eigen::MatrixXd(covariance(asked_, n))).transpose();
-  given_root_ = RootOf(covariance(n, n) - slope_ * covariance(asked_, n));
-  root_ = RootOf(covariance(n, n));
+  slope_ = of_asked.ldlt().solve(Eigen::MatrixXd(covariance(asked_, n)));
+  rest_ = covariance(n, n) - slope_.transpose() * covariance(asked_, n);
+  width_ = kWidth * of_asked.diagonal().array().sqrt();
+  const Eigen::MatrixXd draws = joint.Draws(kDraws, seed);
+  asked_of_draws_ = draws(Eigen::all, asked_);
+  left_of_draws_ = (draws(Eigen::all, n).rowwise() - all_.mean.transpose()) -
+                   (asked_of_draws_.rowwise() - asked_mean_.transpose()) * slope_;
 }
 
-Eigen::MatrixXd AskedDensity::NodesAt(const Eigen::VectorXd& point) const {
+AskedDensity::Normal AskedDensity::Near(const Eigen::VectorXd& point) const {
+  if (domain_.nuisances.empty()) return {};
+  constexpr double kFar = 1e-12;  // weight of draws far away: where none is near all count alike
+  const Eigen::RowVectorXd a = point(asked_).transpose();
+  const Eigen::ArrayXXd away =
+      (asked_of_draws_.rowwise() - a).array().rowwise() / width_.transpose();
+  Eigen::VectorXd weight = (-0.5 * away.square().rowwise().sum()).exp() + kFar;
+  weight /= weight.sum();
+  const double num_near = 1 / weight.squaredNorm();
+  const Eigen::RowVectorXd asked_mean = weight.transpose() * asked_of_draws_;
+  const Eigen::RowVectorXd mean = weight.transpose() * left_of_draws_;
+  const Eigen::MatrixXd asked = asked_of_draws_.rowwise() - asked_mean;
+  const Eigen::MatrixXd left = left_of_draws_.rowwise() - mean;
+  const Eigen::MatrixXd weighted = asked.transpose() * weight.asDiagonal();
+  Eigen::MatrixXd of_asked = weighted * asked;
+  of_asked.diagonal() += (kGlobal / num_near * width_.square()).matrix();  // few show no slope
+  const Eigen::MatrixXd slope = of_asked.ldlt().solve(weighted * left);
+  const Eigen::MatrixXd rest = left - asked * slope;
+  const Eigen::MatrixXd covariance = rest.transpose() * weight.asDiagonal() * rest;
+  return {
+      .mean =
+          all_.mean +
+          ((a - asked_mean_.transpose()) * slope_ + mean + (a - asked_mean) * slope).transpose(),
+      .root = RootOf((num_near * covariance + kGlobal * rest_) / (num_near + kGlobal))};
+}
+
+Eigen::MatrixXd AskedDensity::NodesAt(const Eigen::VectorXd& point, const Normal& near) const {
   if (domain_.nuisances.empty()) return point.transpose();
-  const Eigen::VectorXd given = mean_ + slope_ * (point(asked_) - asked_mean_);
   Eigen::MatrixXd nodes = point.transpose().replicate(2 * normals_.rows(), 1);
-  const Eigen::MatrixXd near = (normals_ * given_root_.transpose()).rowwise() + given.transpose();
-  const Eigen::MatrixXd all = (normals_ * root_.transpose()).rowwise() + mean_.transpose();
-  nodes(Eigen::seqN(0, near.rows()), domain_.nuisances) = near;
-  nodes(Eigen::seqN(near.rows(), all.rows()), domain_.nuisances) = all;
+  Eigen::Index row = 0;
+  for (const Normal* normal : {&near, &all_}) {
+    const Eigen::MatrixXd half =
+        (normals_ * normal->root.transpose()).rowwise() + normal->mean.transpose();
+    nodes(Eigen::seqN(row, half.rows()), domain_.nuisances) = half;
+    row += half.rows();
+  }
   return nodes;
 }
 
-Eigen::VectorXd AskedDensity::LogProposal(const Eigen::VectorXd& point,
-                                          const Eigen::MatrixXd& nodes) const {
+Eigen::VectorXd AskedDensity::LogProposal(const Normal& near, const Eigen::MatrixXd& nodes) const {
   if (domain_.nuisances.empty()) return Eigen::VectorXd::Zero(1);
-  const Eigen::VectorXd given = mean_ + slope_ * (point(asked_) - asked_mean_);
   const Eigen::MatrixXd n = Eigen::MatrixXd(nodes(Eigen::all, domain_.nuisances)).transpose();
-  const Eigen::ArrayXd near = LogGaussian(given_root_, n.colwise() - given);
-  const Eigen::ArrayXd all = LogGaussian(root_, n.colwise() - mean_);
-  const Eigen::ArrayXd most = near.max(all);
-  return most + (0.5 * (near - most).exp() + 0.5 * (all - most).exp()).log();
+  const Eigen::ArrayXd of_near = LogGaussian(near.root, n.colwise() - near.mean);
+  const Eigen::ArrayXd of_all = LogGaussian(all_.root, n.colwise() - all_.mean);
+  const Eigen::ArrayXd most = of_near.max(of_all);
+  return most + (0.5 * (of_near - most).exp() + 0.5 * (of_all - most).exp()).log();
 }
 
 AskedDensity::Nodes AskedDensity::Weighted(const Eigen::MatrixXd& points) const {
   const Eigen::Index each = domain_.nuisances.empty() ? 1 : 2 * normals_.rows();
   Nodes nodes{.points = Eigen::MatrixXd(points.rows() * each, points.cols()),
+              .log_density = {},
               .log_weight = Eigen::VectorXd(points.rows() * each)};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Eigen::VectorXd point = points.row(i);
-    const Eigen::MatrixXd at = NodesAt(point);
+    const Normal near = Near(point);
+    const Eigen::MatrixXd at = NodesAt(point, near);
     nodes.points.middleRows(i * each, each) = at;
-    nodes.log_weight.segment(i * each, each) = -LogProposal(point, at);
+    nodes.log_weight.segment(i * each, each) = -LogProposal(near, at);
   }
-  nodes.log_weight += DensityInside(nodes.points);
+  nodes.log_density = DensityInside(nodes.points);
+  nodes.log_weight += nodes.log_density;
   return nodes;
 }
 
@@ -125,7 +161,12 @@ Eigen::VectorXd AskedDensity::WithTypicalNuisances(const Eigen::VectorXd& point)
   typical(domain_.nuisances) =
       (weight.transpose() * Eigen::MatrixXd(nodes.points(Eigen::all, domain_.nuisances)))
           .transpose();
-  return typical;
+  // The mean of one solution is as likely as its likeliest node, or likelier.
+  Eigen::Index likeliest = 0;
+  const double most = nodes.log_density.maxCoeff(&likeliest);
+  const double least = most - 1 - 0.5 * static_cast<double>(domain_.nuisances.size());
+  if (DensityInside(typical.transpose())[0] >= least) return typical;
+  return nodes.points.row(likeliest);
 }
 
 // From even points in the box of the region's draws. A sum of 1 / p(a) over the draws would be off

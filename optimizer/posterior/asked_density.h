@@ -2,13 +2,14 @@
 // integrated out.
 //
 //   p(a) = ∫ p(a, n) dn ≈ 1/J Σ_j p(a, n_j) / q(n_j | a)
-//   q    = ½ N(m(a), w² S_n|a) + ½ N(m, w² S_n)
+//   q    = ½ N(m(a), w² S(a)) + ½ N(m, w² S_n)
 //
 // a what is asked for, n the nuisances; m(a) the linear regression of n on a over the posterior's
-// draws and S_n|a what it leaves, m and S_n mean and covariance of n; w > 1, so that q has wider
-// tails than p. The half that does not depend on a bounds the weights where the regression is
-// wrong, as in a bent posterior. The same normal numbers serve at each a: p(a) is smooth. Exact,
-// with one node, where nothing is a nuisance.
+// draws, and what a second one over the draws near a adds to it; S(a) what both leave. Without the
+// second, S is as wide as a whole bend, and the nodes miss the posterior across it. m and S_n are
+// mean and covariance of n; w > 1, so that q has wider tails than p. The half that does not depend
+// on a bounds the weights where the regressions are wrong. The same normal numbers serve at each a:
+// p(a) is smooth. Exact, with one node, where nothing is a nuisance.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +30,8 @@ class AskedDensity {
 
   // ln p(a), one point a row: whole points, of which the nuisances' coordinates do not count.
   Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const;
-  // The point with the nuisances at the mean that they have given the others.
+  // The point with the nuisances at the mean that they have given the others; where that is far
+  // from likely, as between two solutions, at the likeliest node.
   Eigen::VectorXd WithTypicalNuisances(const Eigen::VectorXd& point) const;
   // Equally likely draws with their density; `joint` itself where nothing is a nuisance.
   PosteriorSample Sample(const PosteriorSample& joint) const;
@@ -37,13 +39,20 @@ class AskedDensity {
   const std::vector<Eigen::Index>& asked() const { return asked_; }
 
  private:
-  // The nodes at a point, whole points; and ln p(a, n_j) - ln q(n_j | a) of each.
+  // The nodes at a point, whole points; ln p(a, n_j) of each, and that less ln q(n_j | a).
   struct Nodes {
     Eigen::MatrixXd points;
+    Eigen::VectorXd log_density;
     Eigen::VectorXd log_weight;
   };
-  Eigen::MatrixXd NodesAt(const Eigen::VectorXd& point) const;
-  Eigen::VectorXd LogProposal(const Eigen::VectorXd& point, const Eigen::MatrixXd& nodes) const;
+  // N(mean, root rootᵀ) of the nuisances.
+  struct Normal {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd root;
+  };
+  Normal Near(const Eigen::VectorXd& point) const;  // N(m(a), w² S(a))
+  Eigen::MatrixXd NodesAt(const Eigen::VectorXd& point, const Normal& near) const;
+  Eigen::VectorXd LogProposal(const Normal& near, const Eigen::MatrixXd& nodes) const;
   Nodes Weighted(const Eigen::MatrixXd& points) const;  // of each point in turn
   // The joint density; none, -infinity, outside the domain.
   Eigen::VectorXd DensityInside(const Eigen::MatrixXd& points) const;
@@ -55,11 +64,13 @@ class AskedDensity {
   std::uint64_t seed_;
   std::vector<Eigen::Index> asked_;
   Eigen::MatrixXd normals_;  // of the nodes, one a row
+  Normal all_;               // N(m, w² S_n)
   Eigen::VectorXd asked_mean_;
-  Eigen::VectorXd mean_;        // m
-  Eigen::MatrixXd slope_;       // m(a) = m + slope (a - its mean)
-  Eigen::MatrixXd given_root_;  // of w² S_n|a
-  Eigen::MatrixXd root_;        // of w² S_n
+  Eigen::MatrixXd slope_;           // of the regression on all draws, one row a parameter asked for
+  Eigen::MatrixXd asked_of_draws_;  // a of the posterior's draws, one a row
+  Eigen::MatrixXd left_of_draws_;   // what the regression leaves of their n
+  Eigen::ArrayXd width_;            // of the second one's weights, in a
+  Eigen::MatrixXd rest_;            // S_n less what the regression explains
 };
 
 }  // namespace talus::optimizer

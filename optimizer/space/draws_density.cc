@@ -12,7 +12,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kRound = 0.1;     // share of the draws that a kernel is shaped by
-constexpr double kNarrowed = 0.5;  // … and its variance over theirs, as each kernel adds its own
+constexpr double kNarrowed = 0.5;  // … and its variance over theirs; its centre has the rest
 constexpr double kBroad = 0.05;    // weight of the broad Gaussian
 constexpr double kBroader = 4;     // … and its variance over that of the draws
 constexpr double kLeast = 1e-8;    // variance in the unit cube: draws that coincide have some
@@ -51,9 +51,15 @@ DrawsDensity::DrawsDensity(Eigen::MatrixXd draws)
   sd_ = (covariance.diagonal().array() + kLeast).sqrt().matrix().transpose();
   centres_ = std::move(draws);
   const auto count = static_cast<double>(centres_.rows());
+  Eigen::MatrixXd moved = centres_;
   for (Eigen::Index i = 0; i < centres_.rows(); ++i) {
-    kernels_.push_back(MakeKernel(kNarrowed * CovarianceRound(i), (1 - kBroad) / count));
+    const Eigen::MatrixXd round = DrawsRound(i);
+    const Eigen::RowVectorXd middle = round.colwise().mean();
+    kernels_.push_back(MakeKernel(kNarrowed * CovarianceOf(round), (1 - kBroad) / count));
+    if (ReachesAFace(i)) continue;
+    moved.row(i) = middle + std::sqrt(1 - kNarrowed) * (centres_.row(i) - middle);
   }
+  centres_ = std::move(moved);
   kernels_.push_back(MakeKernel(kBroader * covariance, kBroad));
   centres_ = Stack(centres_, mean_);
   const Eigen::MatrixXd normals = Normals(centres_.cols());
@@ -74,14 +80,22 @@ double DrawsDensity::MassInside(Eigen::Index draw, const Eigen::MatrixXd& normal
          static_cast<double>(points.cols());
 }
 
+Eigen::ArrayXd DrawsDensity::Reach(Eigen::Index draw) const {
+  return kReach * kernels_[static_cast<std::size_t>(draw)].root.rowwise().norm().array();
+}
+
+bool DrawsDensity::ReachesAFace(Eigen::Index draw) const {
+  const Eigen::ArrayXd reach = Reach(draw), low = centres_.row(draw).transpose();
+  return !(low > reach && 1 - low > reach).all();
+}
+
 // Adds the images of a kernel at the faces that it reaches, and their centres to `images`.
 void DrawsDensity::Mirror(Eigen::Index draw, const Eigen::MatrixXd& normals,
                           std::vector<Eigen::RowVectorXd>& images) {
   Kernel kernel = kernels_[static_cast<std::size_t>(draw)];
   const Eigen::RowVectorXd centre = centres_.row(draw);
-  const Eigen::ArrayXd reach = kReach * kernel.root.rowwise().norm().array();
-  const Eigen::ArrayXd low = centre.transpose(), high = 1 - low;
-  if ((low > reach && high > reach).all()) return;
+  const Eigen::ArrayXd reach = Reach(draw);
+  if (!ReachesAFace(draw)) return;
   kernel.log_constant -= std::log(MassInside(draw, normals));
   kernels_[static_cast<std::size_t>(draw)].log_constant = kernel.log_constant;
   for (Eigen::Index k = 0; k < centre.size(); ++k) {
@@ -107,7 +121,7 @@ DrawsDensity::Kernel DrawsDensity::MakeKernel(const Eigen::MatrixXd& covariance,
                       base::kLogRootTwoPi * static_cast<double>(d)};
 }
 
-Eigen::MatrixXd DrawsDensity::CovarianceRound(Eigen::Index draw) const {
+Eigen::MatrixXd DrawsDensity::DrawsRound(Eigen::Index draw) const {
   const Eigen::VectorXd distance =
       ((centres_.rowwise() - centres_.row(draw)).array().rowwise() / sd_.array())
           .square()
@@ -122,7 +136,7 @@ Eigen::MatrixXd DrawsDensity::CovarianceRound(Eigen::Index draw) const {
                      return distance[a] != distance[b] ? distance[a] < distance[b] : a < b;
                    });
   order.resize(static_cast<std::size_t>(count));
-  return CovarianceOf(centres_(order, Eigen::all));
+  return centres_(order, Eigen::all);
 }
 
 Eigen::VectorXd DrawsDensity::LogDensity(const Eigen::MatrixXd& points) const {

@@ -2,11 +2,14 @@
 // wide and as long as the draws round it lie.
 //
 // A posterior may be a bent, thin valley or several. One covariance for all kernels would fill the
-// bend, and one Gaussian for all draws would miss it; kernels of their own follow it. A twentieth
-// of the mass is one broad Gaussian, so that draws which lie where an observation does not want
-// them can be outvoted. What a kernel would have beyond one face of the unit cube is mirrored back:
-// else draws that pile up there, as those of a posterior may, would have half their density. Beyond
-// two faces at once it has nothing; its images would double with each parameter.
+// bend, and one Gaussian for all draws would miss it; kernels of their own follow it. A kernel adds
+// its variance to that of the draws, so its centre is its draw moved towards the mean of those
+// round it until both together are as wide as these, but where it reaches a face of the cube, which
+// cuts what is round it: else six parameters would be a seventh wider. A twentieth of the mass is
+// one broad Gaussian, so that draws which lie where an observation does not want them can be
+// outvoted. What a kernel would have beyond one face of the unit cube is mirrored back: else draws
+// that pile up there, as those of a posterior may, would have half their density. Beyond two faces
+// at once it has nothing; its images would double with each parameter.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,14 +40,17 @@ class DrawsDensity {
     double log_constant = 0;       // of its density, its weight included
   };
   static Kernel MakeKernel(const Eigen::MatrixXd& covariance, double weight);
-  Eigen::MatrixXd CovarianceRound(Eigen::Index draw) const;
+  // The draws that a kernel is shaped by.
+  Eigen::MatrixXd DrawsRound(Eigen::Index draw) const;
+  Eigen::ArrayXd Reach(Eigen::Index draw) const;  // of its kernel, in each coordinate
+  bool ReachesAFace(Eigen::Index draw) const;
   // The share of a kernel in the cube, with what is mirrored into it. `normals`: one draw a column.
   double MassInside(Eigen::Index draw, const Eigen::MatrixXd& normals) const;
   void Mirror(Eigen::Index draw, const Eigen::MatrixXd& normals,
               std::vector<Eigen::RowVectorXd>& images);
 
   Eigen::Index num_draws_;
-  Eigen::MatrixXd centres_;  // the draws, the centre of the broad Gaussian, and mirror images
+  Eigen::MatrixXd centres_;  // of the kernels, of the broad Gaussian, and of mirror images
   Eigen::RowVectorXd mean_;  // of the draws
   Eigen::RowVectorXd sd_;
   std::vector<Kernel> kernels_;

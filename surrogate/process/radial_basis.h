@@ -8,7 +8,7 @@
 //
 // ρ >= 0 smooths; it is chosen by leave-one-out cross-validation, whose residuals come from the
 // inverse, λᵢ / (A⁻¹)ᵢᵢ, as for a Gaussian process [dubrule1983]. Without noise the choice is 0,
-// which interpolates.
+// which interpolates, where the function is smooth: a rough one is predicted better by a smoother.
 #pragma once
 
 #include <Eigen/Core>

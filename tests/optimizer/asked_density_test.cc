@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -70,8 +71,9 @@ TEST(AskedDensity, IsTheMarginalOfANormalDensity) {
       point.head(2) += root * radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       point.tail(2).setConstant(0.9);  // does not count
       const double log_density = asked.LogDensity(point.transpose())[0];
-      // 48 nodes leave 0.15; without the nuisances' correlation it would be off by 2 and more.
-      EXPECT_NEAR(log_density - at_mean, -0.5 * radius * radius, 0.15);
+      // 48 nodes, spread by a thousand draws, leave 0.2; without the nuisances' correlation it would
+      // be off by 2 and more.
+      EXPECT_NEAR(log_density - at_mean, -0.5 * radius * radius, 0.2);
       EXPECT_NEAR(sample.CredibleLevel(log_density), 1 - std::exp(-0.5 * radius * radius), 0.04);
     }
   }
@@ -94,6 +96,32 @@ TEST(AskedDensity, AVolumeDoesNotGrowByWhatTheNodesMiss) {
   const PosteriorSample sample = AskedDensity(bend, domain, joint, 1).Sample(joint);
   // 500 points and a thousand draws tell it to 0.02; the sum of 1 / p(a) over the draws is above 1.
   EXPECT_NEAR(sample.RegionVolume(), 0.9, 0.06);
+}
+
+// A nuisance that follows a bend. Round one straight line for all of it the nodes met the density
+// at some values of a and missed it at others, by up to three nats: a set on the edge of the region
+// stood at .29.
+TEST(AskedDensity, IsTheMarginalOfABentDensity) {
+  static constexpr double kSd = 0.18, kAcross = 0.04;
+  const LogDensityFunction bend = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
+    const Eigen::ArrayXd a = x.col(0).array();
+    const Eigen::ArrayXd middle = 0.15 + 0.7 * (2 * a - 1).square();
+    return -0.5 * ((a - 0.5) / kSd).square() -
+           0.5 * ((x.col(1).array() - middle) / kAcross).square();
+  };
+  const Domain domain{.num_parameters = 2, .nuisances = {1}};
+  const PosteriorSample joint = SampleOf(bend, 2);
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const AskedDensity asked(bend, domain, joint, seed);
+    const PosteriorSample sample = asked.Sample(joint);
+    const Eigen::ArrayXd off =
+        sample.log_density.array() + 0.5 * ((sample.points.col(0).array() - 0.5) / kSd).square();
+    EXPECT_LT(std::sqrt((off - off.mean()).square().mean()), 0.2) << seed;
+    for (const double side : {-1, 1}) {
+      const Eigen::RowVector2d edge(0.5 + side * 1.645 * kSd, 0);
+      EXPECT_NEAR(sample.CredibleLevel(asked.LogDensity(edge)[0]), 0.9, 0.05) << seed;
+    }
+  }
 }
 
 // The mean of the nuisances given the others: m + S_na S_aa⁻¹ (a - its mean).
@@ -135,6 +163,9 @@ TEST(AskedDensity, BranchesAreOfWhatIsAskedFor) {
   const auto branches = FindBranches(of_one, of_one.Sample(joint), 1);
   ASSERT_EQ(branches.size(), 1u);
   EXPECT_NEAR(branches[0].point[0], 0.5, 0.05);
+  // The nuisance is one of its two solutions, to two of its standard deviations, and not between.
+  EXPECT_LT(std::min(std::abs(branches[0].point[1] - 0.2), std::abs(branches[0].point[1] - 0.8)),
+            0.08);
 }
 
 // With six parameters no draw of 300 has a neighbour within a third of the ranges.
