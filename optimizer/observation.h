@@ -29,6 +29,7 @@ struct Observation {
   int experiment = 0;                // which of the experiments was simulated
   double scale_factor = 1;           // of the coarse graining [-], >= 1
   double cost = 0;                   // [core seconds]; 0: not known
+  bool is_paid_for = true;           // by this search; false where it was made before
   bool failed = false;               // crashed or infeasible: value and field mean nothing
   double value = 0;                  // the objective, to be minimised
   std::vector<float> field = {};     // the whole image, row by row from the top, in [0, 1] with 1 =

@@ -90,7 +90,9 @@ bool IsWorthAdvice(const Ended& ended) {
 // The few simulations that tell which further test would narrow the answer.
 void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const TellOptions& tell) {
   analysis::AdviceRequest request{
-      .simulate = true, .core_time = ended.spec.next.share * ended.answer->cost.core_hours * 3600};
+      .simulate = true,
+      .core_time = ended.spec.next.share * ended.answer->cost.core_hours * 3600,
+      .is_in_all = true};
   if (!tell.quiet && !tell.json) {
     std::cerr << "looks into further tests for at most " << base::DurationText(*request.core_time)
               << " of core time (the spec's next.share)" << std::endl;

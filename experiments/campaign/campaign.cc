@@ -73,7 +73,7 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   if (!StayEnded()) NoteProgress();
   RunFailedAgain();
   TellFinished();
-  if (parts_.goal) planner_.NoteGoal(LastGoal(folder_.root, spec_));
+  if (parts_.goal) NoteFormerGoal();
   TakeUpRunning();
   CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
@@ -102,9 +102,17 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   }
 }
 
+// What let its runs fail may have been mended.
+void Campaign::NoteFormerGoal() {
+  std::optional<GoalState> goal = LastGoal(folder_.root, spec_);
+  if (goal) goal->failure.clear();
+  planner_.NoteGoal(std::move(goal));
+}
+
 // Once the search is past its first design, after 16, 24, 36, … trials have ended.
 bool Campaign::IsGoalDue() const {
   if (!parts_.goal || planner_.stop()) return false;
+  if (planner_.goal() && !planner_.goal()->failure.empty()) return false;
   std::int64_t ended = 0;
   bool searches = false;
   for (const journal::TrialRecord& trial : planner_.trials()) {

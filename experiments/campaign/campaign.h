@@ -77,6 +77,7 @@ class Campaign {
   bool StartTrials(const base::InterruptGuard& interrupt);
   bool SubmitWaiting();
   void Begin(std::vector<journal::TrialRecord> planned);
+  void NoteFormerGoal();
   bool IsGoalDue() const;
   bool LookAtGoal(const base::InterruptGuard& interrupt);  // false where the user ends it
   void Submit(const std::vector<journal::TrialRecord>& trials);

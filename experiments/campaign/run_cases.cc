@@ -1,5 +1,6 @@
 #include "experiments/campaign/run_cases.h"
 
+#include <algorithm>
 #include <charconv>
 #include <exception>
 #include <string>
@@ -36,18 +37,16 @@ void Start(const runners::Job& job, runners::Runner& runner) {
   if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
 }
 
-// What a case took whose folder holds the mark of a failure [s]; nothing of others.
-std::optional<double> TimeOfFailure(const fs::path& folder) {
-  const fs::path file = folder / rigs::kFailedFile;
-  if (!fs::exists(file)) return std::nullopt;
-  const std::string text = base::ReadFile(file);
-  double seconds = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return seconds;
+void KeepTime(const runners::FinishedJob& job, const fs::path& folder) {
+  const double seconds = job.cpu_time > 0 ? job.cpu_time : job.duration;
+  base::WriteFileAtomically(folder / rigs::kTookFile,
+                            base::ExactNumber(TimeTaken(folder) + std::max(0.0, seconds)));
 }
 
+bool HasMark(const fs::path& folder) { return fs::exists(folder / rigs::kFailedFile); }
+
 bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
-  return TimeOfFailure(run.folder) && engine.IsPrepared(run.rig_case, run.folder);
+  return HasMark(run.folder) && engine.IsPrepared(run.rig_case, run.folder);
 }
 
 // What somebody else has ended says nothing of the case, and what met a limit may do with more.
@@ -101,15 +100,23 @@ void StopIfSetUpFailed(const runners::FinishedJob& job, const fs::path& folder,
 
 }  // namespace
 
+double TimeTaken(const fs::path& folder) {
+  const fs::path file = folder / rigs::kTookFile;
+  if (!fs::exists(file)) return 0;
+  const std::string text = base::ReadFile(file);
+  double seconds = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
+}
+
 CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine) {
-  if (!engine.IsComplete(run.folder)) {
-    const std::optional<double> failed = TimeOfFailure(run.folder);
-    return {.has_ended = failed.has_value(), .core_time = failed.value_or(0)};
-  }
-  CaseOutcome outcome{.has_ended = true};
+  CaseOutcome outcome{.core_time = TimeTaken(run.folder)};
+  outcome.has_ended = engine.IsComplete(run.folder) || HasMark(run.folder);
+  if (!engine.IsComplete(run.folder)) return outcome;
   try {
     outcome.output = engine.Collect(run.rig_case, run.folder);
-    outcome.core_time = outcome.output->cpu_time;
+    // An engine that goes on from a checkpoint says what all attempts took.
+    outcome.core_time = std::max(outcome.core_time, outcome.output->cpu_time);
   } catch (const base::Error&) {  // what it left says nothing
   }
   return outcome;
@@ -155,8 +162,9 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
+      KeepTime(job, folder);
       if (IsFailure(job) && !engine.IsComplete(folder)) {
-        base::WriteFileAtomically(folder / rigs::kFailedFile, base::ExactNumber(job.cpu_time));
+        base::WriteFileAtomically(folder / rigs::kFailedFile, "");
       }
       runs.has_ended(index);
       --running;

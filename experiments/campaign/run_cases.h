@@ -30,10 +30,13 @@ struct CaseRuns {
 // What has become of a case.
 struct CaseOutcome {
   bool has_ended = false;                       // well or not
-  double core_time = 0;                         // of one that has [s]
+  double core_time = 0;                         // of all attempts at it [s]
   std::optional<trials::TrialOutput> output{};  // of one that has ended well
 };
 CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine);
+
+// Core time of all attempts at the case of a folder so far, however they have ended [s].
+double TimeTaken(const std::filesystem::path& folder);
 
 // False when the user ended it; what has ended is kept.
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/text/counted.h"
 #include "base/text/shell_text.h"
 #include "experiments/campaign/add_parameter.h"
 #include "experiments/campaign/earlier_posterior.h"
@@ -166,8 +167,7 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   if (ended || progress.elapsed_s >= budget.wall_clock.value_or(0)) budget.wall_clock.reset();
   if (!change.asks_more) change.event = "extend";
   change.asks_more = true;
-  change.words +=
-      (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
+  change.words += (change.words.empty() ? "by " : ", by ") + base::Counted(num_more, "simulation");
 }
 
 void AddParameters(const std::vector<std::string>& search, SpecChange& change) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/counted.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/start.h"
@@ -123,8 +124,9 @@ TakenOver TakeOverDesigns(const CampaignFolder& folder,
 }
 
 std::string TakenOverText(const TakenOver& taken) {
-  return std::to_string(taken.trials.size()) +
-         " simulations that `talus next` had made of it are taken over";
+  const auto count = static_cast<long long>(taken.trials.size());
+  return base::Counted(count, "simulation") + " that `talus next` had made of it " +
+         (count == 1 ? "is" : "are") + " taken over";
 }
 
 }  // namespace talus::campaign

@@ -307,7 +307,8 @@ void SlurmRunner::Requeue(Task task, const std::string& reason) {
              .index = 0,
              .array = {},
              .requeues = task.requeues + 1,
-             .requeue_reason = reason};
+             .requeue_reason = reason,
+             .lost = task.lost + (task.ended ? task.ended->elapsed : 0)};
   SubmitBatch({std::move(again)});
 }
 
@@ -316,6 +317,8 @@ void SlurmRunner::Report(const Task& task, FinishedJob finished) {
     finished.reason += ", submitted again " + std::to_string(task.requeues) + " times" +
                        (task.requeue_reason.empty() ? "" : ": it " + task.requeue_reason);
   }
+  finished.duration += task.lost;
+  if (finished.cpu_time > 0) finished.cpu_time += task.lost * options_.cores;
   if (task.cancelled) {
     finished.end = JobEnd::kCancelled;
     finished.reason = "was cancelled";

@@ -52,6 +52,7 @@ class SlurmRunner : public Runner {
     std::string array{};  // its array's number; empty while it waits to be submitted
     int requeues = 0;     // by us
     std::string requeue_reason{};
+    double lost = 0;  // that earlier attempts have run for [s]
     bool cancelled = false;
     bool begun = false;     // as Slurm says
     bool vanished = false;  // Slurm forgot it while it waited, and not the rest of its array

@@ -148,23 +148,22 @@ ExperimentModel::Setup PosteriorStrategy::SetupOf(std::size_t experiment) const 
 // Where the simulations of an experiment give all that it has measured: they may crash, and a
 // number may not exist. One model for all numbers: what takes one away may take the others, too.
 void PosteriorStrategy::CountSuccesses(std::size_t experiment, Posterior& posterior) const {
-  std::vector<const Observation*> gave, failed;
+  std::vector<const Observation*> all;
   for (const Observation& told : observations_) {
-    if (told.experiment != static_cast<int>(experiment)) continue;
-    const auto exists = [](double number) { return std::isfinite(number); };
-    const bool gives = !told.failed && std::ranges::all_of(told.scalars, exists);
-    (gives ? gave : failed).push_back(&told);
+    if (told.experiment == static_cast<int>(experiment)) all.push_back(&told);
   }
-  if (failed.empty()) return;
-  KeepSpread(gave, kMostEvaluations / 2);
-  KeepSpread(failed, kMostEvaluations / 2);
-  const auto num_gave = static_cast<Eigen::Index>(gave.size());
-  const auto num = num_gave + static_cast<Eigen::Index>(failed.size());
+  const auto gives = [](const Observation* told) {
+    const auto exists = [](double number) { return std::isfinite(number); };
+    return !told->failed && std::ranges::all_of(told->scalars, exists);
+  };
+  if (std::ranges::all_of(all, gives)) return;
+  KeepSpread(all, kMostEvaluations);  // of both alike: their shares are what is modelled
+  const auto failed = std::stable_partition(all.begin(), all.end(), gives);
+  const auto num = static_cast<Eigen::Index>(all.size());
   Eigen::MatrixXd points(num, domain_.num_parameters);
   Eigen::VectorXd worked = Eigen::VectorXd::Zero(num);
-  worked.head(num_gave).setOnes();
-  gave.insert(gave.end(), failed.begin(), failed.end());
-  for (Eigen::Index i = 0; i < num; ++i) points.row(i) = gave[static_cast<std::size_t>(i)]->point;
+  worked.head(failed - all.begin()).setOnes();
+  for (Eigen::Index i = 0; i < num; ++i) points.row(i) = all[static_cast<std::size_t>(i)]->point;
   posterior.CountSuccesses(experiment, SuccessModel(points, worked));
 }
 
@@ -287,14 +286,17 @@ Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
 // Where more of their number is used up than of the core time, an even share of the time that is
 // left: coarse grains, which cost next to none, would use up the number and leave the time.
 double PosteriorStrategy::Price(std::span<const Proposal> asked) const {
-  const double used = static_cast<double>(observations_.size() + asked.size());
+  const auto used = static_cast<double>(
+      std::ranges::count_if(observations_, &Observation::is_paid_for) + std::ssize(asked));
   if (options_.core_time <= 0 || used >= options_.simulations) return 0;
   double spent = 0;
   const auto usual = [&](const auto& evaluation) {
     return CostOf(static_cast<std::size_t>(evaluation.experiment),
                   levels_.LevelOf(evaluation.scale_factor));
   };
-  for (const Observation& o : observations_) spent += o.cost > 0 ? o.cost : usual(o);
+  for (const Observation& o : observations_) {
+    if (o.is_paid_for) spent += o.cost > 0 ? o.cost : usual(o);
+  }
   for (const Proposal& p : asked) spent += usual(p);
   if (used / options_.simulations <= spent / options_.core_time) return 0;
   return (options_.core_time - spent) / (options_.simulations - used);

@@ -102,7 +102,7 @@ class Progress:
 
     def _status(self, event):
         import time
-        text = f"{event['num_search']} simulations"
+        text = f"{event['num_search']} simulation" + ("" if event["num_search"] == 1 else "s")
         if event["num_confirm"]:
             text += f", {event['num_confirm']} to confirm"
         if event.get("best_objective") is not None:

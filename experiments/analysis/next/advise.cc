@@ -15,6 +15,7 @@
 #include "experiments/campaign/answer/standing_answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
 
@@ -38,6 +39,20 @@ std::string WordsOf(const AdviceRequest& request) {
 
 }  // namespace
 
+namespace {
+
+// What the campaign itself has taken [s], its goal's runs included.
+double CoreTimeOf(const campaign::JointView& view) {
+  std::vector<journal::TrialRecord> own = view.trials;
+  std::erase_if(own, [](const journal::TrialRecord& trial) {
+    return trial.kind == journal::TrialKind::kReused;
+  });
+  const auto goal = campaign::LastGoal(view.folder.root, view.spec);
+  return campaign::CoreTime(view.spec).Of(own) + (goal ? goal->core_time : 0);
+}
+
+}  // namespace
+
 NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
   const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
@@ -56,13 +71,13 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
                             PredictionFolder(view.folder.root, {.file = request.goal->file})));
   }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
-  NextTable table = RankNext(
-      view, {.tests = std::move(tests),
-             .simulate = request.simulate,
-             .core_time = request.core_time.value_or(campaign::CoreTime(view.spec).Of(view.trials)),
-             .say = request.say,
-             .parts = campaign::MakeParts(view.spec, folder),
-             .goal = std::move(goal)});
+  NextTable table = RankNext(view, {.tests = std::move(tests),
+                                    .simulate = request.simulate,
+                                    .core_time = request.core_time.value_or(CoreTimeOf(view)),
+                                    .is_in_all = request.is_in_all,
+                                    .say = request.say,
+                                    .parts = campaign::MakeParts(view.spec, folder),
+                                    .goal = std::move(goal)});
   table.simulate_first = SimulateFirst(view.folder.root);
   table.asked = WordsOf(request);
   table.has_simulated = request.simulate;

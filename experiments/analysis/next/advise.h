@@ -16,6 +16,7 @@ struct AdviceRequest {
   std::filesystem::path candidates{};  // file of tests that could be made; empty: the usual ones
   bool simulate = false;               // designs, within the core time
   std::optional<double> core_time{};   // [s]; default: as much as the campaign has taken
+  bool is_in_all = false;              // with what designs have taken before
   std::optional<GoalRequest> goal{};   // what is to be predicted; none: the parameters themselves
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };

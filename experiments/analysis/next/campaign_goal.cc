@@ -20,6 +20,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/rigs/rig_list.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::analysis {
 namespace {
@@ -160,6 +161,12 @@ Prediction CampaignGoal::Collect(double& core_time) const {
   return runs;
 }
 
+std::string CampaignGoal::FailureOf(const fs::path& look) const {
+  const std::string log = trials::LastLogLines(DesignFolder{look}.trial(0));
+  return "none has ended well" + (log.empty() ? "" : " (" + log + ")") +
+         ", and no more are made before `talus resume`";
+}
+
 std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
                                             const base::InterruptGuard& interrupt) {
   constexpr int kDraws = 1000;
@@ -191,6 +198,7 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
   state.core_time = 0;
   const Prediction all = Collect(state.core_time);
   state.num_runs = all.num_runs;
+  if (all.num_runs == 0) state.failure = FailureOf(folder);
   const auto surrogate = NumberSurrogate::Fit(all, all.numbers.front(), plan_.space);
   if (surrogate) Judge(plan_.spec, *surrogate, *strategy, ground, state);  // else too few have it
   campaign::KeepGoal(folder, state);

@@ -34,6 +34,8 @@ class CampaignGoal : public campaign::GoalJudge {
                                   const campaign::DesignFolder& look, bool is_first) const;
   rigs::Case CaseAt(const std::filesystem::path& look, const campaign::DesignRecord& design,
                     std::size_t index) const;
+  // What the first of a look's runs has left in its log, in words.
+  std::string FailureOf(const std::filesystem::path& look) const;
   // The runs of all looks, each draw once; and the core time that they took [s].
   Prediction Collect(double& core_time) const;
 

@@ -264,6 +264,20 @@ UnknownTrials UnknownsOf(const JointView& view, const NextOptions& options, cons
   return trials;
 }
 
+// Core time of the designs so far, and of the runs beside them with what is unknown moved [s].
+double TimeOfStored(const JointView& view, const NextOptions& options,
+                    const std::vector<Design>& designs) {
+  double sum = 0;
+  for (const Design& design : designs) {
+    if (!design.stored) continue;
+    const TestCandidate& test = options.tests[design.candidate];
+    const MovedDesign moved{
+        .test = test, .design = *design.stored, .moves = UnknownMoves(view, test, *design.stored)};
+    sum += design.stored->core_time + StoredUnknowns(view, moved, *options.parts.engine).core_time;
+  }
+  return sum;
+}
+
 // Simulates what the core time allows, and judges every test that has a design.
 std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& options,
                                       Cost& cost) {
@@ -274,6 +288,7 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
   }
   double left = options.core_time;
   std::vector<Design> designs = DesignsOf(view, options, candidates, cost);
+  if (options.is_in_all) left -= TimeOfStored(view, options, designs);
   SimulateDesigns(ground, options, designs, left);
   for (const Design& design : designs) {
     const TestCandidate& test = options.tests[design.candidate];

@@ -19,6 +19,7 @@ struct NextOptions {
   bool simulate = false;  // the designs of the tests that have none, the cheapest first
   // … as long as the next one fits within this core time [s]
   double core_time = std::numeric_limits<double>::infinity();
+  bool is_in_all = false;  // what the stored ones have taken is a part of it
   // Told before a design is simulated.
   std::function<void(const std::string&)> say = [](const std::string&) {};
   campaign::CampaignParts parts{};  // that simulate

@@ -190,17 +190,19 @@ class Predictor {
 
   void Collect(std::size_t run, PredictionRuns& runs) {
     const campaign::FolderCase at = FolderCaseOf(runs, run);
+    const auto fail = [&](const std::string& why) {
+      runs.AddFailure(run, why, campaign::TimeTaken(at.folder));
+    };
     if (!parts_.engine->IsComplete(at.folder)) {
       const std::string why = trials::LastLogLines(at.folder);
-      runs.AddFailure(run, why.empty() ? "left no result" : why);
-      return;
+      return fail(why.empty() ? "left no result" : why);
     }
     try {
       trials::TrialOutput output = parts_.engine->Collect(at.rig_case, at.folder);
       if (case_.scene_text.empty()) KeepRigNumbers(at.rig_case, output);
       runs.Add(run, std::move(output));
     } catch (const base::Error& error) {
-      runs.AddFailure(run, error.what());
+      fail(error.what());
     }
   }
 

@@ -115,10 +115,11 @@ void PredictionRuns::Add(std::size_t run, trials::TrialOutput output) {
   ++num_ended_;
 }
 
-void PredictionRuns::AddFailure(std::size_t run, std::string why) {
+void PredictionRuns::AddFailure(std::size_t run, std::string why, double core_time) {
   runs_[run].has_ended = true;
   ++num_ended_;
   ++num_failed_;
+  failed_time_ += core_time;
   failure_ = std::move(why);
 }
 
@@ -185,7 +186,7 @@ std::vector<std::optional<Spread>> PredictionRuns::Summarise(Prediction& predict
   prediction.num_ended = num_ended_;
   prediction.num_failed = num_failed_;
   prediction.failure = failure_;
-  prediction.core_time = 0;
+  prediction.core_time = failed_time_;
   prediction.runs.clear();
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (!runs_[r].output) continue;

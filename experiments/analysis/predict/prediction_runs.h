@@ -27,7 +27,7 @@ class PredictionRuns {
   const PlannedRun& planned(std::size_t run) const { return plan_[run]; }
 
   void Add(std::size_t run, trials::TrialOutput output);
-  void AddFailure(std::size_t run, std::string why);
+  void AddFailure(std::size_t run, std::string why, double core_time);
 
   int num_ended() const { return num_ended_; }
   // Runs with the scale factor that have ended well.
@@ -64,6 +64,7 @@ class PredictionRuns {
   std::vector<Run> runs_;
   int num_ended_ = 0;
   int num_failed_ = 0;
+  double failed_time_ = 0;  // core time of these [s]
   std::string failure_;
 };
 

@@ -127,8 +127,8 @@ std::string AlarmText(const Alarm& a) {
       return "the goal is not reached: " + a.reason.value_or("") +
              " (`talus next DIR --for CASE` ranks what would narrow it)";
     case AlarmKind::kFewSimulations:
-      return experiment + " has only " + value +
-             " simulations at the smallest scale factor: so few are trusted less, and the joint "
+      return experiment + " has only " + base::Counted(std::llround(*a.value), "simulation") +
+             " at the smallest scale factor: so few are trusted less, and the joint "
              "region is wider for it; more would narrow it (" +
              ResumeCommand(kMoreSimulations) + ")";
     case AlarmKind::kWorseThanPredicted:

@@ -245,7 +245,7 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
     const bool says_it = device.text.starts_with(device.experiment + ":");  // "funnel heap: …"
     text += "                    " + (says_it ? "" : device.experiment + ", ") + device.text + "\n";
   }
-  text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
+  text += "  cost              " + base::Counted(r.cost.num_trials, "simulation") + " (" +
           std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
           " core hours, " + base::DurationText(r.cost.elapsed) + " elapsed\n";
   text += ReusedLines(r.reused);

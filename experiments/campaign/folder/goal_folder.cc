@@ -70,7 +70,7 @@ std::string TextOf(const GoalState& state, const GoalSpec& asked) {
                                           : " not known") +
          " after " + std::to_string(state.after) + " trials, asked for ± " +
          shown(asked.half_width_in_results()) + "; " + base::Counted(state.num_runs, "run") +
-         " of it";
+         " of it" + (state.failure.empty() ? "" : ": " + state.failure);
 }
 
 std::int64_t NextLook(std::int64_t last) { return last == 0 ? kFirstLook : last + last / 2; }

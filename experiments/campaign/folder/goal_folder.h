@@ -27,6 +27,7 @@ struct GoalState {
   int num_runs = 0;                                // of all looks so far
   double core_time = 0;                            // of these [s]
   std::optional<optimizer::StopReason> reason{};   // why the search may end; none: it goes on
+  std::string failure{};  // why no run of it has ended well; nothing more is then run for it
 
   static constexpr base::FieldKey kKeys[] = {{"after", "after_trials"},
                                              {"half_width", "half_width_90"},
@@ -35,7 +36,7 @@ struct GoalState {
                                              {"least_half_width", "least_half_width_90"},
                                              {"core_time", "core_time_s"}};
   TALUS_FIELDS(goal, after, num_experiments, num_parameters, half_width, parameters_half_width,
-               surrogate_half_width, least_half_width, num_runs, core_time, reason);
+               surrogate_half_width, least_half_width, num_runs, core_time, reason, failure);
 };
 
 struct CampaignSpec;

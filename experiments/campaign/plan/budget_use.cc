@@ -29,7 +29,8 @@ double TimeOfOne(std::span<const journal::TrialRecord> trials, int experiment, d
   for (const bool own : {true, false}) {
     for (const journal::TrialRecord& trial : trials) {
       if (!HasEnded(trial) || (own && trial.experiment != experiment)) continue;
-      if (Duration(trial) == 0) continue;  // taken from elsewhere, or found after a kill
+      if (trial.kind == journal::TrialKind::kReused) continue;  // of another machine, it may be
+      if (Duration(trial) == 0) continue;                       // found after a kill
       const double away = std::abs(std::log(trial.scale_factor / factor));
       if (away > nearest) continue;
       if (away < nearest) sum = count = 0;
@@ -42,6 +43,12 @@ double TimeOfOne(std::span<const journal::TrialRecord> trials, int experiment, d
   return count > 0 ? sum / count : 0;
 }
 
+// What so many trials of this duration take at most, where a late one has the machine to itself
+// [s].
+double Rounds(double count, double each, int at_a_time) {
+  return std::ceil(std::max(0.0, count) / at_a_time) * each;
+}
+
 // What the trials so far say of the pace.
 struct Pace {
   std::span<const journal::TrialRecord> trials;
@@ -50,9 +57,9 @@ struct Pace {
   double elapsed;  // [s]
   int at_a_time;
 
-  // Wall time of each further trial of the search at most [s]: all may be at the finest scale
+  // Wall time of so many further trials of the search at most [s]: all may be at the finest scale
   // factor, and of the dearest experiment. Proposals and pauses stay as they were.
-  double OfEach(double finest) const {
+  double Of(double count, double finest) const {
     double durations = 0, dearest = 0;
     for (const journal::TrialRecord& trial : trials) {
       if (HasEnded(trial) && trial.IsPaidFor()) durations += Duration(trial);
@@ -61,7 +68,7 @@ struct Pace {
       dearest = std::max(dearest, TimeOfOne(trials, e, finest));
     }
     const double beside = std::max(0.0, elapsed - durations / at_a_time) / num_ended;
-    return beside + dearest / at_a_time;
+    return std::max(0.0, count) * beside + Rounds(count, dearest, at_a_time);
   }
 };
 
@@ -70,8 +77,7 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, const Pace& pa
   const BudgetOptions& budget = spec.budget;
   double left = std::numeric_limits<double>::infinity();
   if (budget.simulations > 0) {
-    left =
-        (budget.simulations - pace.num_ended) * pace.OfEach(spec.coarse_graining.Levels().back());
+    left = pace.Of(budget.simulations - pace.num_ended, spec.coarse_graining.Levels().back());
   }
   if (budget.core_time && use.core_seconds > 0) {
     left = std::min(left, pace.elapsed * (*budget.core_time - use.core_seconds) / use.core_seconds);
@@ -85,15 +91,22 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, const Pace& pa
 double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace,
                         std::span<const journal::TrialRecord> begun) {
   const double factor = spec.ConfirmScaleFactor();
-  double left = 0;
+  double sum = 0;
+  double rounds = 0;
+  double dearest = 0;
   for (int e = 0; e < pace.num_experiments; ++e) {
     const auto ended = std::ranges::count_if(begun, [&](const journal::TrialRecord& trial) {
       return trial.experiment == e && HasEnded(trial);
     });
-    left += std::max(0.0, spec.confirm.MostTrials() - static_cast<double>(ended)) *
-            TimeOfOne(pace.trials, e, factor);
+    const double count = spec.confirm.MostTrials() - static_cast<double>(ended);
+    if (count <= 0) continue;
+    const double each = TimeOfOne(pace.trials, e, factor);
+    sum += count * each;
+    rounds += Rounds(count, each, pace.at_a_time);
+    dearest = std::max(dearest, each);
   }
-  return left / pace.at_a_time;
+  // One experiment after the other, or whichever is next while a worker is free (Graham's bound).
+  return std::min(rounds, dearest + (sum - dearest) / pace.at_a_time);
 }
 
 // Wall time of what follows the answer by itself: further tests and sensitivity [s].

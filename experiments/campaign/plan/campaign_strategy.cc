@@ -84,6 +84,7 @@ optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Re
       .scale_factor = trial.scale_factor,
       // Not the processor time, which differs from run to run and would take proposals with it.
       .cost = CostAtUsualSpeed(trial),
+      .is_paid_for = trial.IsPaidFor(),
       .failed = trial.status != journal::TrialStatus::kOk || !reference.IsMeasured(trial),
       .value = value.value_or(0),
       .field = std::move(field)};

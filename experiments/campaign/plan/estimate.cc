@@ -185,6 +185,14 @@ std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
          " at least, or leave that scale factor out";
 }
 
+// Trials of the search; 0 where no number ends it. A set that was begun gets all its replicates.
+int MostSearched(const CampaignSpec& spec) {
+  if (spec.budget.simulations == 0) return 0;
+  const int sets =
+      (spec.budget.simulations - spec.noise.replicates + spec.replicates - 1) / spec.replicates;
+  return spec.noise.replicates + sets * spec.replicates;
+}
+
 }  // namespace
 
 RunEstimate EstimateRun(const rigs::Case& rig_case) {
@@ -227,10 +235,10 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   double confirm_time = 0;  // [s], of one replicate by every experiment
   for (const TrialEstimate& trial : e.confirming) confirm_time += trial.core_seconds;
   const int num_confirming = MostConfirming(spec);
-  if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
+  const int num_search = MostSearched(spec);
+  if (num_search > 0) e.num_trials = num_search + num_confirming;
   e.num_workers = MostAtATime(spec, NumCores());
-  const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations
-                                                    : spec.budget.core_time.value_or(0);
+  const double search = num_search > 0 ? dearest * num_search : spec.budget.core_time.value_or(0);
   e.proposal_time = ProposalTime(NumSearchTrials(spec.budget, e.trials));
   // More workers than this machine has cores wait for one another (CoresWarning).
   const bool is_here = spec.runner.kind == RunnerKind::kLocal;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/text/counted.h"
 #include "base/text/duration_text.h"
 
 namespace talus::campaign {
@@ -12,7 +13,7 @@ std::string Stop::Text() const {
     case StopKind::kRule:
       return rule ? optimizer::TextOf(*rule) : "its own rule is met";
     case StopKind::kSimulations:
-      return "the budget of " + std::to_string(std::llround(value)) + " simulations is used";
+      return "the budget of " + base::Counted(std::llround(value), "simulation") + " is used";
     case StopKind::kCoreTime:
       return "the budget of " + base::DurationText(value) + " core time is used";
     case StopKind::kWallClock:

@@ -33,6 +33,8 @@ void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
   }
   trial.metrics = std::move(metrics);
   trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
+  // As the journal gives them back: a resumed campaign must see the same trial.
+  std::ranges::sort(trial.metrics, {}, &journal::MetricRecord::name);
   trial.status = journal::TrialStatus::kOk;
   trial.reason = output.note;
   trial.num_steps = output.num_steps;

@@ -16,6 +16,7 @@ inline constexpr const char* kHeapFile = "heap.vtp";          // another engine 
 inline constexpr const char* kCommandFile = ".command.json";  // another engine's, filled, as a list
 inline constexpr const char* kCommandDone = ".command_done";  // left when it has ended well
 inline constexpr const char* kFailedFile = ".failed";  // left in a case beside a campaign's trials
+inline constexpr const char* kTookFile = ".took";  // there, too: core seconds of all its attempts
 inline constexpr const char* kGroupFile = ".process_group";
 inline constexpr const char* kTaskEndFile = ".slurm_end";  // written when a job's command has ended
 inline constexpr const char* kTaskEndPart = ".slurm_end.part";

@@ -1,6 +1,7 @@
 #include "experiments/trials/engines/command_result.h"
 
 #include <fnmatch.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
@@ -74,6 +75,22 @@ void RequireLast(const std::vector<fs::path>& matches) {
   }
 }
 
+double Seconds(const timespec& time) {
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Whether it was copied here with the time of a file of before the trial. One that was written here
+// is none, even where the clock has gone back meanwhile or the node's is behind: its last change is
+// then as early as its last writing.
+bool IsOldCopy(const fs::path& file, const fs::path& started) {
+  constexpr double kWhileItIsMoved = 60;  // [s]
+  struct stat result {};
+  struct stat start {};
+  if (::stat(started.c_str(), &start) != 0 || ::stat(file.c_str(), &result) != 0) return false;
+  return Seconds(result.st_mtim) < Seconds(start.st_mtim) &&
+         Seconds(result.st_ctim) - Seconds(result.st_mtim) > kWhileItIsMoved;
+}
+
 std::string Digits(const std::string& text, std::size_t start) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789", start), text.size());
   const std::size_t first = std::min(text.find_first_not_of('0', start), end);
@@ -105,12 +122,8 @@ bool NaturalLess(const std::string& a, const std::string& b) {
 
 fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const fs::path& started) {
   std::vector<fs::path> matches = Matches(engine, folder);
-  std::error_code absent;
-  const fs::file_time_type start = fs::last_write_time(folder / started, absent);
   const bool any = !matches.empty();
-  if (!absent) {
-    std::erase_if(matches, [&](const fs::path& path) { return fs::last_write_time(path) < start; });
-  }
+  std::erase_if(matches, [&](const fs::path& path) { return IsOldCopy(path, folder / started); });
   if (matches.size() > 1) {
     std::erase_if(matches, [](const fs::path& path) { return path.filename() == rigs::kHeapFile; });
   }

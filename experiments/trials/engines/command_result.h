@@ -11,8 +11,8 @@
 namespace talus::trials {
 
 // The file that `engine.result` means: of several the last in natural order (heap_9 < heap_10).
-// One older than `started`, a file of the trial's start, is none of this trial. Throws base::Error,
-// with the end of the log, when there is none.
+// One that was copied with a time before `started`, a file of the trial's start, is none of this
+// trial. Throws base::Error, with the end of the log, when there is none.
 std::filesystem::path FindResult(const CommandOptions& engine, const std::filesystem::path& folder,
                                  const std::filesystem::path& started);
 

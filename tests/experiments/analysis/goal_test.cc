@@ -44,18 +44,19 @@ class GoalTest : public campaign::CampaignFixture {
                      observable + R"(", "half_width": ")" + half_width + "\"}",
                  name);
   }
-  static campaign::CampaignEnd Run(const fs::path& folder) {
+  static campaign::CampaignEnd Run(const fs::path& folder,
+                                   const campaign::FakeEngineOptions& of_goal = {
+                                       .density_scatter = 0.3}) {
     const base::InterruptGuard interrupt;
     campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
     campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
-    const auto parts = [&] {
+    const auto parts = [&](const campaign::FakeEngineOptions& engine) {
       return campaign::CampaignParts{
           .runner = campaign::MakeDrawnRunner(opened.spec, opened.folder.root),
-          .engine =
-              std::make_unique<FakeEngine>(campaign::FakeEngineOptions{.density_scatter = 0.3})};
+          .engine = std::make_unique<FakeEngine>(engine)};
     };
-    campaign::CampaignParts own = parts();
-    own.goal = std::make_unique<CampaignGoal>(opened.spec, folder, parts());
+    campaign::CampaignParts own = parts({.density_scatter = 0.3});
+    own.goal = std::make_unique<CampaignGoal>(opened.spec, folder, parts(of_goal));
     campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
                                 opened.spec, std::move(own), console);
     return campaign.Run(interrupt);
@@ -86,6 +87,19 @@ TEST_F(GoalTest, EndsTheSearchWhenItIsKnownAsWellAsAsked) {
   ASSERT_TRUE(goal.has_value());
   EXPECT_EQ(goal->num_runs, 8);
   EXPECT_EQ(goal->after, static_cast<std::int64_t>(Trials(folder).size()));
+}
+
+// They were made anew at each look, and nothing was said.
+TEST_F(GoalTest, RunsThatAllFailAreMadeOnceAndTheReasonIsSaid) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  Run(folder, {.fail_first = 1000});
+  EXPECT_EQ(campaign::GoalLooks(folder).size(), 1u);
+  const GoalState last = Last(folder).value();
+  EXPECT_EQ(last.num_runs, 0);
+  EXPECT_THAT(last.failure, HasSubstr("none has ended well"));
+  EXPECT_THAT(base::ReadFile(folder / "campaign.log"), HasSubstr("none has ended well"));
+  EXPECT_THAT(campaign::TextOf(last, *campaign::ReadJointView(folder).spec.goal),
+              HasSubstr("0 runs of it: none has ended well"));
 }
 
 // What was known without it is no reason to end the search, and its runs are paid for already.

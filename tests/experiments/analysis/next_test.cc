@@ -176,6 +176,12 @@ TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
   EXPECT_THAT(NextText(asked),
               AllOf(HasSubstr("?: the core time was too short for it; the cheapest, "),
                     HasSubstr("`talus next DIR tests.json --for spread.json --simulate --budget")));
+  // A share of the campaign's core time is one of all calls: each resume spent it anew.
+  options.core_time = 1.001 * Find(table, "slow lift").core_time_to_judge;
+  options.is_in_all = true;
+  EXPECT_FALSE(Find(RankNext(view, options), "slow lift").learning.has_value());
+  options.is_in_all = false;
+  EXPECT_TRUE(Find(RankNext(view, options), "slow lift").learning.has_value());
 }
 
 // Two rectangles, of which the second is lower and wider: the difference has both colours, and two

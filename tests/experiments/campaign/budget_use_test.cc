@@ -41,11 +41,12 @@ std::vector<journal::TrialRecord> Trials(int num_ended, int num_running,
   return trials;
 }
 
-// Two at a time: 20 trials took 100 s, so 40 more take 200 s, and 3 that confirm 15 s.
+// Two at a time: 20 trials took 100 s, so 40 more take 200 s, and 3 that confirm 20 s: the third
+// has a worker to itself.
 TEST(BudgetUse, SimulationsAreLeftAtThePaceSoFar) {
   const BudgetUse use = UseOf(SpecOf({.simulations = 60}), Trials(20, 2), 100, 2);
   EXPECT_EQ(use.num_search, 22);
-  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 15);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 20);
 }
 
 // 200 of 500 core seconds in 100 s: 150 s more.
@@ -53,18 +54,30 @@ TEST(BudgetUse, CoreTimeIsLeftAtThePaceSoFar) {
   const CampaignSpec spec = SpecOf({.simulations = 0, .core_time = 500});
   const BudgetUse use = UseOf(spec, Trials(20, 2), 100, 2);
   EXPECT_DOUBLE_EQ(use.core_seconds, 200);
-  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 150 + 15);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 150 + 20);
   EXPECT_EQ(UseText(spec.budget, use, 100), "22 simulations, 3 min of 8 min core time");
 }
 
-// Taken over from another campaign, or found after a kill: nobody knows how long they took.
-TEST(BudgetUse, TrialsOfUnknownDurationAreNoPace) {
-  std::vector<journal::TrialRecord> trials = Trials(0, 32, journal::TrialKind::kReused);
-  for (journal::TrialRecord& trial : trials) trial.status = journal::TrialStatus::kOk;
+// Taken over from another campaign, on a faster machine it may be, or found after a kill, when
+// nobody knows how long they took.
+TEST(BudgetUse, TrialsOfOthersAndOfUnknownDurationAreNoPace) {
   const std::vector<journal::TrialRecord> own = Trials(20, 2);
   const auto alone = UseOf(SpecOf({.simulations = 60}), own, 100, 2);
+  std::vector<journal::TrialRecord> trials = Trials(32, 0, journal::TrialKind::kReused);
+  for (journal::TrialRecord& trial : trials) trial.duration_s = 0.01;
   trials.insert(trials.end(), own.begin(), own.end());
   EXPECT_EQ(UseOf(SpecOf({.simulations = 60}), trials, 100, 2).seconds_left, alone.seconds_left);
+  std::vector<journal::TrialRecord> found = Trials(22, 2);
+  found[0].duration_s = found[1].duration_s = 0;
+  EXPECT_EQ(UseOf(SpecOf({.simulations = 62}), found, 100, 2).seconds_left, alone.seconds_left);
+}
+
+// "At most 6 s" was said at the start of twelve trials of 10 s with 20 workers.
+TEST(BudgetUse, NothingTakesLessThanATrial) {
+  const BudgetUse use = UseOf(SpecOf({.simulations = 30}), Trials(30, 0), 15, 20);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), kTrial);
+  EXPECT_DOUBLE_EQ(UseOf(SpecOf({.simulations = 34}), Trials(30, 0), 15, 20).seconds_left.value(),
+                   2 * kTrial);
 }
 
 // The trials under way at the budget's end go beyond it; what is said never does.
@@ -72,13 +85,13 @@ TEST(BudgetUse, NoMoreThanTheBudgetIsUsed) {
   const CampaignSpec spec = SpecOf({.simulations = 0, .core_time = 25});
   const BudgetUse use = UseOf(spec, Trials(3, 0), 15, 2);
   EXPECT_DOUBLE_EQ(use.core_seconds, 25);
-  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 15);  // the confirmation
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 20);  // the confirmation
   EXPECT_THAT(UseText(spec.budget, use, 15), HasSubstr("25 s of 25 s core time"));
 }
 
 TEST(BudgetUse, TheWallClockEndsASearchSooner) {
   const CampaignSpec spec = SpecOf({.simulations = 60, .wall_clock = 120});
-  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 20 + 15);
+  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 20 + 20);
 }
 
 TEST(BudgetUse, OnceItConfirmsOnlyThatIsLeft) {
@@ -102,18 +115,18 @@ TEST(BudgetUse, ASearchThatGoesOnAfterAConfirmationHasNotEnded) {
   const BudgetUse use = UseOf(SpecOf({.simulations = 60}), trials, 100, 2);
   EXPECT_EQ(use.num_search, 22);
   EXPECT_EQ(use.num_confirm, 0);
-  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 15);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 20);
 }
 
 // The two ends are six trials more; further tests take a fifth of the core time of all, which is
-// 200 s so far, 400 of the search and 90 of the confirmation.
+// 200 s so far, 400 of the search and 100 of the confirmation, whose last trial runs alone.
 TEST(BudgetUse, EndsAndFurtherTestsAreCounted) {
   CampaignSpec spec = SpecOf({.simulations = 60});
   spec.confirm.ends = true;
-  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 200 + 9 * kTrial / 2);
+  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 200 + 10 * kTrial / 2);
   spec.next.share = 0.2;
   EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(),
-                   245 + 0.2 * (200 + 490) / 2);
+                   250 + 0.2 * (200 + 500) / 2);
 }
 
 // Coarse trials come first. Those at half the scale factor take 16 times as long: 40 of them, two
@@ -123,7 +136,7 @@ TEST(BudgetUse, FinerTrialsToComeTakeLonger) {
   spec.coarse_graining.scale_factors = {2, 1};
   std::vector<journal::TrialRecord> trials = Trials(20, 2);
   for (journal::TrialRecord& trial : trials) trial.scale_factor = 2;
-  EXPECT_DOUBLE_EQ(UseOf(spec, trials, 100, 2).seconds_left.value(), (40 + 3) * 16 * kTrial / 2);
+  EXPECT_DOUBLE_EQ(UseOf(spec, trials, 100, 2).seconds_left.value(), (40 + 4) * 16 * kTrial / 2);
 }
 
 TEST(BudgetUse, NothingIsSaidBeforeATrialHasEnded) {

@@ -73,6 +73,8 @@ TEST(TrialEnd, ANumberNamedAsAnImagesMetricIsRefused) {
   output.scalars = {number};
   TakeOutput(output, reference, trial);
   const auto metrics = trial.metrics.size();
+  // As the journal gives them back, so that a resumed campaign compares the same.
+  EXPECT_TRUE(std::ranges::is_sorted(trial.metrics, {}, &journal::MetricRecord::name));
   number.name = "sad_mm2";
   output.scalars.push_back(number);
   EXPECT_THAT([&] { TakeOutput(output, reference, trial); },

@@ -20,10 +20,11 @@ namespace run_cases_test {
 
 namespace fs = std::filesystem;
 
-// Ends every job with this exit status, and leaves nothing.
+// Ends every job with this exit status after 3 s of processor time, and leaves nothing.
 class EndsBy : public runners::Runner {
  public:
-  explicit EndsBy(int status) : status_(status) {}
+  explicit EndsBy(int status, runners::JobEnd end = runners::JobEnd::kExit)
+      : status_(status), end_(end) {}
   int Capacity() const override { return 1; }
   bool JobsOutliveUs() const override { return false; }
   std::vector<std::string> Submit(std::span<const runners::Job> jobs) override {
@@ -34,7 +35,8 @@ class EndsBy : public runners::Runner {
   std::vector<runners::FinishedJob> Wait(double) override {
     std::vector<runners::FinishedJob> finished;
     for (const std::int64_t id : std::exchange(ids_, {})) {
-      finished.push_back({.id = id, .exit_status = status_, .reason = {}, .host = {}});
+      finished.push_back(
+          {.id = id, .end = end_, .exit_status = status_, .reason = {}, .cpu_time = 3, .host = {}});
     }
     return finished;
   }
@@ -42,6 +44,7 @@ class EndsBy : public runners::Runner {
 
  private:
   int status_;
+  runners::JobEnd end_;
   std::vector<std::int64_t> ids_;
 };
 
@@ -68,7 +71,6 @@ class FailedCasesTest : public CampaignFixture {
     FakeEngine engine{{}};
     const rigs::Case rig_case = TypicalCase(ReadJointView(folder_).spec, 0, 1);
     const CaseOutcome outcome = OutcomeOf({.folder = Place(i), .rig_case = rig_case}, engine);
-    EXPECT_TRUE(outcome.has_ended || outcome.core_time == 0);
     return outcome.has_ended && !outcome.output;
   }
 
@@ -109,6 +111,23 @@ TEST_F(FailedCasesTest, MarksAloneAreNoReasonToLeaveOut) {
   fs::remove_all(Place(1));
   EXPECT_ANY_THROW(Run({0.2, 0.5}, false));
   EXPECT_FALSE(HasFailed(0));
+}
+
+// Capped runs of a goal took 24 core seconds of which nothing was counted, at each look again.
+TEST_F(FailedCasesTest, TheTimeOfEveryAttemptIsCounted) {
+  const JointView view = ReadJointView(folder_);
+  FakeEngine engine{{}};
+  const FolderCase run{.folder = Place(0), .rig_case = TypicalCase(view.spec, 0, 1)};
+  for (const runners::JobEnd end : {runners::JobEnd::kTimeCap, runners::JobEnd::kOutOfMemory,
+                                    runners::JobEnd::kPreempted, runners::JobEnd::kExit}) {
+    const CampaignParts parts{.runner = std::make_unique<EndsBy>(1, end),
+                              .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+    RunCases({.count = 1, .at = [&](std::size_t) { return run; }, .time_cap = 60}, parts);
+  }
+  EXPECT_FALSE(OutcomeOf(run, engine).has_ended);  // where all fail no marks are kept
+  EXPECT_DOUBLE_EQ(OutcomeOf(run, engine).core_time, 4 * 3);
+  ASSERT_TRUE(Run({0.5}));  // another case in the same place
+  EXPECT_LT(OutcomeOf(run, engine).core_time, 3);
 }
 
 TEST_F(FailedCasesTest, WhereAllFailTheSetUpIsWrongAndTheyAreMadeAgain) {

@@ -198,6 +198,19 @@ TEST(Estimate, WarnsOfABudgetThatEndsBeforeTheFinestTrials) {
   EXPECT_TRUE(warnings(least).empty());
 }
 
+// Ten by threes are twelve, and a set that was begun gets all of them.
+TEST(Estimate, ReplicatesAreCounted) {
+  const auto count = [](const std::string& replicates) {
+    return EstimateCampaign(Read(R"("coarse_graining": {"scale_factor": 4}, "workers": 1,
+        "confirm": {"candidates": 0}, "budget": {"simulations": 10}, )" +
+                                 replicates))
+        .num_trials;
+  };
+  EXPECT_EQ(count(R"("replicates": 1)"), 10);
+  EXPECT_EQ(count(R"("replicates": 3)"), 12);
+  EXPECT_EQ(count(R"("replicates": 3, "noise": {"replicates": 4})"), 10);
+}
+
 // Three of each test by two sets are twelve, and were counted as those of two tests of two tests.
 TEST(Estimate, ConfirmsEachSetByEveryTestOnce) {
   const auto estimate = [](const char* confirm) {

@@ -155,14 +155,15 @@ TEST_F(SlurmRunnerTest, NodeFailureAndPreemptionAreSubmittedAgainAndRecorded) {
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
   runner.Submit(jobs);
-  Put("queue", "101_0|NODE_FAIL|None\n101_1|PREEMPTED|None\n");
+  Put("queue", "101_0|NODE_FAIL|None|1:00:00\n101_1|PREEMPTED|None\n");
   EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
-  Put("queue", "102_0|NODE_FAIL|None\n103_0|PREEMPTED|None\n");
+  Put("queue", "102_0|NODE_FAIL|None|0:00:01\n103_0|PREEMPTED|None\n");
   const auto finished = Finish(runner, 2);
   ASSERT_EQ(finished.size(), 2u);
   EXPECT_EQ(finished[0].end, JobEnd::kNodeFailure);
   EXPECT_EQ(finished[1].end, JobEnd::kPreempted);
   EXPECT_THAT(finished[0].reason, HasSubstr("submitted again 1 times: it lost its node"));
+  EXPECT_EQ(finished[0].duration, 3601);  // of both attempts
   // Should Slurm have lost sight of one only.
   EXPECT_EQ(base::ReadFile(root_ / "cancelled"), "101_0\n101_1\n");
 }

@@ -240,6 +240,17 @@ TEST_F(CommandEngineTest, OldResultsAreNoResults) {
   EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\" that is not older than the trial"));
 }
 
+// By the clock of the trial's start, which has gone back meanwhile, or is that of another machine.
+TEST_F(CommandEngineTest, AResultThatAClockDatesBeforeTheTrialIsItsResult) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  Run();
+  const fs::path folder = root_ / "trial";
+  for (const char* ours : {"result.json", "profile.png"}) fs::remove(folder / ours);
+  fs::last_write_time(folder / ".command.json",
+                      fs::last_write_time(folder / "heap.csv") + std::chrono::minutes(10));
+  EXPECT_EQ(FindResult(options_, folder, ".command.json").filename(), "heap.csv");
+}
+
 // What another program leaves has no checksum: a bit turned over in it was another answer, where
 // the journal was made anew from the trials' folders.
 TEST_F(CommandEngineTest, ATrialWhoseFilesHaveChangedSinceTheyWereMeasuredIsRunAgain) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/base64.h"
+#include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
@@ -205,7 +206,7 @@ std::string Conditions(const campaign::Answer& answer) {
 
 std::string Foot(const ReportData& data) {
   const campaign::Answer& answer = *data.evidence.answer;
-  std::string text = std::to_string(answer.cost.num_trials) + " simulations, " +
+  std::string text = base::Counted(answer.cost.num_trials, "simulation") + ", " +
                      ShownOrDash(answer.cost.core_hours) + " core hours";
   for (const campaign::ResultReused& reused : answer.reused) {
     text += ", reused: " + ReusedText(reused);

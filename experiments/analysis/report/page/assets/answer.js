@@ -158,7 +158,7 @@ function toldApart(c) {
 // What `talus next` has found: every candidate, and what the best ones would show.
 function nextTable() {
   if (!D.next) return [];
-  const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : c.bits === null ? "–" : "no simulation";
+  const cost = (c) => c.simulations ? counted(c.simulations, "simulation") + ", " + duration(c.core_time) : c.bits === null ? "–" : "no simulation";
   // What is not known: "?" where simulations would tell, "–" where none will; the candidate's own words say why.
   const known = (c, x, text) => x !== null ? text(x) : c.needs_simulations ? "?" : "–";
   const command = "talus next " + D.campaign.folder + D.next.asked;

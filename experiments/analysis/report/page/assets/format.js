@@ -16,6 +16,8 @@ function format(x, digits = 3) {
   const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
   return minus(mantissa) + " × 10" + superscript(Number(exponent));
 }
+// "1 run", "2 runs".
+const counted = (count, noun) => count + " " + noun + (count === 1 ? "" : "s");
 // The same as short as can be: "0.2", "10⁻⁵".
 function tick(x) {
   if (x === 0) return "0";

@@ -2,11 +2,11 @@
 
 function standing() {
   const c = D.campaign, {searched, reused, confirming, failed, running} = c.counts;
-  const parts = [searched + " simulations" + (c.budget ? " of at most " + c.budget : "")];
+  const parts = [counted(searched, "simulation") + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts[0] += " and " + confirming + (confirming === 1 ? " that confirms" : " that confirm") + " the answer";
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + (c.state === "running" ? " under way" : " to be run or collected"));
-  if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
+  if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : counted(reused, "simulation")));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
     c.ended_silently ? [" ", element("code", {}, "talus resume " + c.folder), " goes on. "] : " ",
