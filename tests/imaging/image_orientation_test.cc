@@ -173,6 +173,11 @@ TEST(ImageOrientation, LevelsForADisplayBecomeLight) {
   EXPECT_EQ(ReadPhotograph(TempFile("camera.png")).image.pixels, light);
   EXPECT_EQ(ReadPhotograph(TempFile("plain.png")).image, levels);
   EXPECT_EQ(ReadGrayImage(TempFile("camera.png")), levels);
+  // A dim one keeps its white: 0.0452 of full light, of which 20 has 0.155.
+  const GrayImage dim{.width = 3, .height = 1, .pixels = {0, 20, 60}};
+  base::WriteFileAtomically(TempFile("dim.png"), PngWith(ExifWithSpace(1, true), dim));
+  const std::vector<std::uint8_t> as_bright{0, 9, 60};
+  EXPECT_EQ(ReadPhotograph(TempFile("dim.png")).image.pixels, as_bright);
 }
 
 // 8 bits go through libtiff's own conversion, which must not turn a second time; 16 bits do not.

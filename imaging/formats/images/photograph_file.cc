@@ -1,5 +1,6 @@
 #include "imaging/formats/images/photograph_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,12 +20,31 @@ int BlockFor(const GrayImage& image) {
 }
 
 // The curve of sRGB (IEC 61966-2-1), turned back.
+double LightOf(double level) {
+  const double v = level / 255;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+// The highest level that a thousandth of the pixels have or exceed: not that of a hot pixel.
+std::size_t WhiteOf(const GrayImage& image) {
+  std::array<std::size_t, 256> count{};
+  for (const std::uint8_t pixel : image.pixels) ++count[pixel];
+  std::size_t white = 255;
+  for (std::size_t brighter = count[white]; 1000 * brighter < image.pixels.size() && white > 0;) {
+    brighter += count[--white];
+  }
+  return white;
+}
+
+// White stays as bright as it is: of a dim photograph's levels few would be left.
 void MakeLinear(GrayImage& image) {
+  const std::size_t white = WhiteOf(image);
+  if (white == 0) return;
+  const double gain = static_cast<double>(white) / LightOf(static_cast<double>(white));
   std::array<std::uint8_t, 256> light{};
   for (std::size_t level = 0; level < light.size(); ++level) {
-    const double v = static_cast<double>(level) / 255;
-    const double share = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    light[level] = static_cast<std::uint8_t>(std::lround(255 * share));
+    const double linear = gain * LightOf(static_cast<double>(level));
+    light[level] = static_cast<std::uint8_t>(std::lround(std::min(255.0, linear)));
   }
   for (std::uint8_t& pixel : image.pixels) pixel = light[pixel];
 }

@@ -121,6 +121,32 @@ TEST(Pour, GrainsComeAtTheRateAndTouchNothing) {
   EXPECT_GT(state.num_poured, 100);
 }
 
+// Centres have a quarter of this mouth. At the speed that is enough for wide ones a tenth waited.
+TEST(Pour, GrainsComeAtTheRateThroughANarrowMouth) {
+  for (const std::uint64_t seed : {3, 4}) {
+    PourPlan plan = Plan();
+    plan.mouth_diameter = 2.05e-3;
+    plan.rate = 0.004;
+    plan.seed = seed;
+    const Pour pour(plan);
+    PourState state;
+    Scene scene = testing::EmptySpace(testing::Glass());
+    scene.gravity = {0, 0, -9.81};
+    scene.time_step = 1e-6;
+    Simulation simulation(scene);
+    while (simulation.time() < 0.1) {
+      pour.Advance(simulation, state);
+      const double to_go = pour.NextTime(state) - simulation.time();
+      simulation.Advance(std::max<std::int64_t>(1, std::llround(std::ceil(to_go / 1e-6))));
+    }
+    const double grain = 4.0 / 3 * std::numbers::pi * 1.25e-10 * 2500;
+    // A batch is a hundredth of what has come.
+    EXPECT_NEAR(static_cast<double>(state.num_poured) * grain / (0.004 * simulation.time()), 1,
+                0.03)
+        << seed;
+  }
+}
+
 // Where nothing can leave the mouth, grains wait; none is pressed into another.
 TEST(Pour, GrainsWaitWhereThereIsNoRoom) {
   PourPlan plan = Plan();
