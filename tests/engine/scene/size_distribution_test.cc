@@ -192,6 +192,17 @@ TEST(SizeFile, DecimalCommasBetweenCommasAreRefused) {
               HasSubstr("line 2: has 4 fields below 2 titles; decimal commas are likely"));
 }
 
+// "1,250" of a spreadsheet became a count of 1.25 beside 980, and its class was gone.
+TEST(SizeFile, CommasBetweenThousandsAreRefused) {
+  const auto error = [](const std::string& text) { return ErrorIn([&] { ReadText(text); }); };
+  for (const char* text : {"d (mm),Count (number)\n0.5,980\n0.7,\"1,250\"\n0.9,\"1,100\"\n",
+                           "d (mm);Count (number)\n0.5;\"1,250\"\n0.7;1,100\n0.9;700\n"}) {
+    EXPECT_THAT(error(text), HasSubstr("has a comma between thousands; write 1250")) << text;
+  }
+  // Decimals all the same.
+  EXPECT_EQ(ReadText("d (mm);Q3 (%)\n0,500;0,125\n0,700;50,125\n1,250;100\n").diameters.size(), 3u);
+}
+
 // They were taken away one by one, in time that grew as the square: minutes for a million.
 TEST(SizeFile, AMillionEmptyClassesAreDroppedAtOnce) {
   std::string text = "size (um),% in class\n";
