@@ -15,9 +15,8 @@ std::string Shortest(T x) {
 }  // namespace
 
 std::string ShortNumber(double x, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, x);
-  return text;
+  char text[40];  // as "%.*g" writes it, whatever the locale of the program that uses this library
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits).ptr};
 }
 
 std::string ExactNumber(double x) { return Shortest(x); }

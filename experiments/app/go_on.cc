@@ -95,7 +95,7 @@ void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const 
       .is_in_all = true};
   if (!tell.quiet && !tell.json) {
     std::cerr << "looks into further tests for at most " << base::DurationText(*request.core_time)
-              << " of core time (the spec's next.share)" << std::endl;
+              << " of core time in all (the spec's next.share)" << std::endl;
     request.say = [](const std::string& text) { std::cerr << text << std::endl; };
   }
   const analysis::NextTable table = analysis::Advise(folder, request);

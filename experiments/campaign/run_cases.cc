@@ -37,8 +37,8 @@ void Start(const runners::Job& job, runners::Runner& runner) {
   if (!name.empty()) base::WriteFileAtomically(NoteOf(job.folder), name);
 }
 
-void KeepTime(const runners::FinishedJob& job, const fs::path& folder) {
-  const double seconds = job.cpu_time > 0 ? job.cpu_time : job.duration;
+void KeepTime(const runners::FinishedJob& job, int num_cores, const fs::path& folder) {
+  const double seconds = job.cpu_time > 0 ? job.cpu_time : job.duration * num_cores;
   base::WriteFileAtomically(folder / rigs::kTookFile,
                             base::ExactNumber(TimeTaken(folder) + std::max(0.0, seconds)));
 }
@@ -162,7 +162,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
-      KeepTime(job, folder);
+      KeepTime(job, runs.num_cores, folder);
       if (IsFailure(job) && !engine.IsComplete(folder)) {
         base::WriteFileAtomically(folder / rigs::kFailedFile, "");
       }

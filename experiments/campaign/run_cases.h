@@ -23,6 +23,7 @@ struct CaseRuns {
   std::size_t count = 0;
   std::function<FolderCase(std::size_t)> at;
   double time_cap = 0;  // of each, wall-clock [s], > 0
+  int num_cores = 1;    // that each has, for one whose processor time is not known
   // Told of each when it has ended, well or not; those that were complete count as well.
   std::function<void(std::size_t)> has_ended = [](std::size_t) {};
 };

@@ -50,11 +50,11 @@ Outline OutlineAt(const GrayImage& image, const Frame& frame, double level) {
 
 constexpr double kStrip = 1;  // [px]: two outlines farther apart have a strip of one grey between
 
-double Middle(double at, double beyond) {
-  return std::abs(beyond - at) > kStrip ? (at + beyond) / 2 : at;
+double Middle(double at, double inner, double outer) {
+  return std::abs(outer - inner) > kStrip ? (inner + outer) / 2 : at;
 }
 
-// Whether a row of `beyond` above all of the outline's still is as high as its columns.
+// Adds the row at this height, as wide as the columns that reach it, if any do.
 void AddRow(double height, Outline& outline) {
   const auto reaches = [height](double h) { return h >= height; };
   const auto first = std::ranges::find_if(outline.height, reaches);
@@ -65,37 +65,44 @@ void AddRow(double height, Outline& outline) {
                           .right = static_cast<double>(last - outline.height.begin())});
 }
 
-// `beyond` is that of the next grey level: the outline goes through the middle of what is between.
-void MoveToMiddle(const Outline& beyond, Outline& outline) {
+// The outline at the level, but where those of the darker and the lighter side are a strip apart:
+// there it goes through the strip's middle.
+Outline Between(const Outline& inner, const Outline& at, const Outline& outer) {
+  Outline outline{.height = at.height, .rows = {}};
   for (std::size_t x = 0; x < outline.height.size(); ++x) {
-    outline.height[x] = Middle(outline.height[x], beyond.height[x]);
+    outline.height[x] = Middle(at.height[x], inner.height[x], outer.height[x]);
   }
-  auto row = outline.rows.begin();
-  const double top = outline.rows.empty() ? 0 : outline.rows.back().height;
-  for (const RowExtent& other : beyond.rows) {
-    if (other.height > top) {
-      AddRow(other.height, outline);
-      row = outline.rows.begin();
+  const auto row_of = [](const Outline& one, double height) {
+    return std::ranges::find(one.rows, height, &RowExtent::height);
+  };
+  for (const RowExtent& row : outer.rows) {
+    const auto inner_row = row_of(inner, row.height);
+    if (inner_row == inner.rows.end()) {  // none of the lower heaps is as high
+      AddRow(row.height, outline);
       continue;
     }
-    while (row != outline.rows.end() && row->height < other.height) ++row;
-    if (row == outline.rows.end() || row->height != other.height) continue;
-    row->left = Middle(row->left, other.left);
-    row->right = Middle(row->right, other.right);
+    const RowExtent& at_row = *row_of(at, row.height);
+    outline.rows.push_back({.height = row.height,
+                            .left = Middle(at_row.left, inner_row->left, row.left),
+                            .right = Middle(at_row.right, inner_row->right, row.right)});
   }
+  return outline;
 }
 
 }  // namespace
 
 // Of an even number of silhouettes half have powder over a whole strip, half-way between dark and
-// light: the outline of the lower heaps would be its one side.
+// light, rounded up or down: the outline of the lower or of the higher heaps would be its one side.
 Outline FindOutline(const GrayImage& image, const Frame& frame, double level) {
-  Outline outline = OutlineAt(image, frame, level);
-  const auto is_at_level = [level](std::uint8_t g) { return g >= level && g < level + 1; };
-  if (std::ranges::any_of(image.pixels, is_at_level)) {
-    MoveToMiddle(OutlineAt(image, frame, level + 1), outline);
-  }
-  return outline;
+  const Outline at = OutlineAt(image, frame, level);
+  const auto has = [&](double low, double high) {
+    return std::ranges::any_of(image.pixels, [&](std::uint8_t g) { return g >= low && g < high; });
+  };
+  const bool below = has(level - 1, level);
+  const bool above = has(level, level + 1);
+  if (!below && !above) return at;
+  return Between(below ? OutlineAt(image, frame, level - 1) : at, at,
+                 above ? OutlineAt(image, frame, level + 1) : at);
 }
 
 }  // namespace talus::imaging

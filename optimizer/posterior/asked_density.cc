@@ -161,7 +161,8 @@ Eigen::VectorXd AskedDensity::WithTypicalNuisances(const Eigen::VectorXd& point)
   typical(domain_.nuisances) =
       (weight.transpose() * Eigen::MatrixXd(nodes.points(Eigen::all, domain_.nuisances)))
           .transpose();
-  // The mean of one solution is as likely as its likeliest node, or likelier.
+  // The mean of one solution is about as likely as its likeliest node; of a skewed one less, by the
+  // half a standard deviation or so that it lies beside the mode in each nuisance.
   Eigen::Index likeliest = 0;
   const double most = nodes.log_density.maxCoeff(&likeliest);
   const double least = most - 1 - 0.5 * static_cast<double>(domain_.nuisances.size());

@@ -1,6 +1,7 @@
 #include "optimizer/space/parameter_space.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 
@@ -17,7 +18,11 @@ namespace talus::optimizer {
 namespace {
 
 // The way to the unit cube and back costs a table's value its last bits.
-double AsWritten(double value) { return std::stod(base::ShortNumber(value, 15)); }
+double AsWritten(double value) {
+  const std::string text = base::ShortNumber(value, 15);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
 
 int IndexOf(const std::vector<Parameter>& parameters, const std::string& name) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),

@@ -74,7 +74,13 @@ def _taken_again(spec):
     if not any(images in one for one in experiments for images in ("photos", "runs", "map", "film")):
         spec.pop("objective", None)  # of images
     powder = spec.get("powder", {})
-    if "mass" in powder and all("fill" in one.get("rig", {}) for one in experiments):
+    searches_fill = "fill" in spec.get("parameters", {})
+
+    def is_filled(one):
+        rig = one.get("rig", {})
+        return "fill" in rig or searches_fill and rig.get("kind") == "drum"
+
+    if "mass" in powder and all(map(is_filled, experiments)):
         powder.pop("mass")  # which only followed from the fills
     grains = spec.get("coarse_graining", {})
     if "scale_factors" in grains:
@@ -188,9 +194,10 @@ class Campaign:
             table[name] = pandas.Series(dict(self._query(
                 "select trial, value from points where position = ?", position)), dtype=float)
         for name, unit in self._query("select name, max(unit) from metrics group by name order by name"):
-            table[name] = pandas.Series(dict(self._query(
+            column = name + "_of_engine" if name in table else name  # a deck may echo what it was given
+            table[column] = pandas.Series(dict(self._query(
                 "select trial, value from metrics where name = ?", name)), dtype=float)
-            units[name] = "" if unit == "-" else unit
+            units[column] = "" if unit == "-" else unit
         table.attrs = {"units": units, "ranges": self.ranges}
         return table
 
@@ -202,7 +209,7 @@ class Campaign:
         if not file.exists():
             raise FileNotFoundError(f"{file}: is not there; a campaign writes its posterior when it ends "
                                     "with enough trials for one")
-        draws = pandas.read_csv(file)
+        draws = pandas.read_csv(file, float_precision="round_trip")
         parameters = self.parameters
         if len(draws.columns) != len(parameters):
             raise FileNotFoundError(f"{file}: is of other parameters, which the campaign had before; it writes "

@@ -62,6 +62,18 @@ TEST(Map, TheBaseIsAsWideAsTheHeapIsThere) {
   }
 }
 
+// A heap of 70 px on a layer of one row over a plate of 100: drawn on, the plate was 118 px wide.
+TEST(Map, ALayerUnderTheHeapIsNoSlope) {
+  GrayImage map{.width = 160, .height = 120, .pixels = std::vector<std::uint8_t>(160 * 120, 255)};
+  for (int y = 70; y < 100; ++y) {
+    const int half = y == 99 ? 50 : 35 - (99 - y);
+    for (int x = 80 - half; x < 80 + half; ++x) map.at(x, y) = 0;
+  }
+  WritePng(TempFile("layer.png"), map);
+  const Frame frame = ReadMap(TempFile("layer.png"), 0.01, {}).frame;
+  EXPECT_DOUBLE_EQ(frame.plate_diameter / frame.pixel_size, 100);
+}
+
 // The plate, drawn black below the heap, is not powder when the frame says where it begins.
 TEST(Map, FrameBlanksWhatIsBelowTheBaseline) {
   GrayImage map = DrawnMap();

@@ -135,8 +135,6 @@ TEST(DrawsDensity, IsNearlyAsSmoothAsWhatItsDrawsAreFrom) {
   EXPECT_LT(std::sqrt((inside * (error - mean).square()).sum() / inside.sum()), 0.33);
 }
 
-// Draws of a half normal that piles up at a face have its density there, not half of it; in a
-// corner not a quarter.
 // Kernels round unmoved draws left 0.785 of it within the true region of six parameters.
 TEST(DrawsDensity, IsAsWideAsItsDraws) {
   // The 0.9 quantile of χ² with 1 to 6 degrees of freedom.
@@ -156,6 +154,8 @@ TEST(DrawsDensity, IsAsWideAsItsDraws) {
   }
 }
 
+// Draws of a half normal that piles up at a face have its density there, not half of it; in a
+// corner not a quarter.
 TEST(DrawsDensity, KeepsItsMassInTheCube) {
   constexpr double kSd = 0.15;
   base::Random random(7, base::Stream("pile"));

@@ -193,9 +193,13 @@ def check_spec_of_a_drum(root):
     spec = {"experiments": [drum], "powder": {"material": material, "sizes": {"kind": "mono", "diameter": "1.5 mm"}},
             "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}}, "budget": {"simulations": 1},
             "confirm": {"candidates": 0}, "next": {"share": 0}}
-    again = talus.calibrate(spec, out=root / "drum", progress=False).spec
-    again["seed"] = 8
-    assert len(talus.calibrate(again, out=root / "drum_again", progress=False).trials()) == 1
+    searched = json.loads(json.dumps(spec))
+    searched["parameters"]["fill"] = {"min": 0.2, "max": 0.4}
+    del searched["experiments"][0]["rig"]["fill"]
+    for name, one in (("drum", spec), ("searched", searched)):
+        again = talus.calibrate(one, out=root / name, progress=False).spec
+        again["seed"] = 8
+        assert len(talus.calibrate(again, out=root / (name + "_again"), progress=False).trials()) == 1
 
 
 def check_program(campaign):

@@ -1,5 +1,6 @@
 #include "experiments/analysis/export/export.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -25,13 +26,21 @@ std::vector<std::string> MetricNames(const std::vector<journal::TrialRecord>& tr
 std::string TrialsCsv(const journal::CampaignRecord& campaign,
                       const std::vector<journal::TrialRecord>& trials) {
   const std::vector<std::string> metrics = MetricNames(trials);
+  std::vector<std::string> first{"trial", "kind",       "origin",      "status",
+                                 "seed",  "experiment", "scale_factor"};
+  for (const journal::ParameterRecord& p : campaign.parameters) {
+    first.push_back(journal::ColumnName(p));
+  }
+  const std::vector<std::string> last{"duration_s", "cpu_s",        "num_steps", "num_particles",
+                                      "attempts",   "finish_order", "host",      "reason"};
   base::Csv csv;
-  csv.Heads({"trial", "kind", "origin", "status", "seed", "experiment", "scale_factor"});
-  for (const journal::ParameterRecord& p : campaign.parameters) csv.Cell(journal::ColumnName(p));
-  for (const std::string& metric : metrics) csv.Cell(metric);
-  csv.Heads({"duration_s", "cpu_s", "num_steps", "num_particles", "attempts", "finish_order",
-             "host", "reason"})
-      .EndRow();
+  for (const std::string& head : first) csv.Cell(head);
+  for (const std::string& metric : metrics) {
+    const bool is_taken = std::ranges::count(first, metric) + std::ranges::count(last, metric) > 0;
+    csv.Cell(is_taken ? metric + "_of_engine" : metric);  // a deck may echo what it was given
+  }
+  for (const std::string& head : last) csv.Cell(head);
+  csv.EndRow();
   for (const journal::TrialRecord& t : trials) {
     csv.Cell(t.id).Cell(base::NameOf(t.kind)).Cell(t.origin).Cell(base::NameOf(t.status));
     csv.Cell(t.seed).Cell(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name);

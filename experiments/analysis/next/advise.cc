@@ -37,10 +37,6 @@ std::string WordsOf(const AdviceRequest& request) {
   return words + " --observable " + base::ShellWord(request.goal->observable);
 }
 
-}  // namespace
-
-namespace {
-
 // What the campaign itself has taken [s], its goal's runs included.
 double CoreTimeOf(const campaign::JointView& view) {
   std::vector<journal::TrialRecord> own = view.trials;

@@ -16,6 +16,7 @@
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -164,7 +165,7 @@ Prediction CampaignGoal::Collect(double& core_time) const {
 std::string CampaignGoal::FailureOf(const fs::path& look) const {
   const std::string log = trials::LastLogLines(DesignFolder{look}.trial(0));
   return "none has ended well" + (log.empty() ? "" : " (" + log + ")") +
-         ", and no more are made before `talus resume`";
+         ", and no more are made before `talus resume DIR`";
 }
 
 std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
@@ -193,7 +194,8 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
                                           .folder = DesignFolder{folder}.trial(i),
                                           .rig_case = CaseAt(folder, design, i)};
                                     },
-                                .time_cap = view.spec.trial_time_cap};
+                                .time_cap = view.spec.trial_time_cap,
+                                .num_cores = campaign::CoresOfTrial(view.spec)};
   if (!campaign::RunCases(runs, parts_, interrupt)) return std::nullopt;
   state.core_time = 0;
   const Prediction all = Collect(state.core_time);

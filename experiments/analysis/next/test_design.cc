@@ -9,6 +9,7 @@
 #include "base/json/json_writer.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
@@ -98,7 +99,8 @@ void Simulate(const campaign::JointView& view, const TestCandidate& test,
                                           .folder = FolderOf(view, test).trial(i),
                                           .rig_case = CaseAt(view, test, record, i)};
                                     },
-                                .time_cap = view.spec.trial_time_cap};
+                                .time_cap = view.spec.trial_time_cap,
+                                .num_cores = campaign::CoresOfTrial(view.spec)};
   if (campaign::RunCases(runs, parts)) return;
   throw base::Interrupted("interrupted; the same command goes on with \"" + test.name + "\"");
 }

@@ -10,6 +10,7 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
@@ -150,7 +151,8 @@ UnknownTrials SimulateUnknowns(const campaign::JointView& view, const MovedDesig
   const campaign::CaseRuns runs{
       .count = list.size(),
       .at = [&](std::size_t i) { return FolderCaseOf(view, moved, list[i]); },
-      .time_cap = view.spec.trial_time_cap};
+      .time_cap = view.spec.trial_time_cap,
+      .num_cores = campaign::CoresOfTrial(view.spec)};
   if (!campaign::RunCases(runs, parts)) {
     throw base::Interrupted("interrupted; the same command goes on with \"" + moved.test.name +
                             "\"");

@@ -30,6 +30,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"
@@ -83,6 +84,7 @@ class Predictor {
         campaign::RunCases({.count = runs.size(),
                             .at = [&](std::size_t run) { return FolderCaseOf(runs, run); },
                             .time_cap = view_.spec.trial_time_cap,
+                            .num_cores = campaign::CoresOfTrial(view_.spec),
                             .has_ended =
                                 [&](std::size_t run) {
                                   Collect(run, runs);
@@ -199,6 +201,7 @@ class Predictor {
     }
     try {
       trials::TrialOutput output = parts_.engine->Collect(at.rig_case, at.folder);
+      output.cpu_time = std::max(output.cpu_time, campaign::TimeTaken(at.folder));
       if (case_.scene_text.empty()) KeepRigNumbers(at.rig_case, output);
       runs.Add(run, std::move(output));
     } catch (const base::Error& error) {

@@ -5,6 +5,7 @@
 #include "base/text/name.h"
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/regimes.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 
 namespace talus::analysis {
@@ -50,7 +51,8 @@ std::optional<std::vector<FlowRegime>> TestRegimes(const campaign::JointView& vi
   }
   if (!campaign::RunCases({.count = runs.size(),
                            .at = [&](std::size_t test) { return runs[test]; },
-                           .time_cap = view.spec.trial_time_cap},
+                           .time_cap = view.spec.trial_time_cap,
+                           .num_cores = campaign::CoresOfTrial(view.spec)},
                           parts)) {
     return std::nullopt;
   }

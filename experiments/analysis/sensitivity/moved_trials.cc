@@ -9,6 +9,7 @@
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
@@ -125,7 +126,8 @@ void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& se
   });
   const campaign::CaseRuns runs{.count = cases.size(),
                                 .at = [&](std::size_t i) { return cases[i]; },
-                                .time_cap = setting.view.spec.trial_time_cap};
+                                .time_cap = setting.view.spec.trial_time_cap,
+                                .num_cores = campaign::CoresOfTrial(setting.view.spec)};
   if (campaign::RunCases(runs, setting.parts)) return;
   throw base::Interrupted("interrupted; the same command goes on with the sensitivity");
 }

@@ -79,16 +79,24 @@ double Seconds(const timespec& time) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Whether it was copied here with the time of a file of before the trial. One that was written here
-// is none, even where the clock has gone back meanwhile or the node's is behind: its last change is
-// then as early as its last writing.
-bool IsOldCopy(const fs::path& file, const fs::path& started) {
+bool LiesIn(const fs::path& file, const fs::path& folder) {
+  std::error_code absent;
+  const fs::path inside =
+      fs::canonical(file, absent).lexically_relative(fs::canonical(folder, absent));
+  return !absent && !inside.empty() && *inside.begin() != "..";
+}
+
+// Whether it is of before the trial: it was copied here with its former time, or lies elsewhere.
+// One that was written here is of the trial, even where the clock has gone back meanwhile or the
+// node's is behind: its last change is then as early as its last writing.
+bool IsOld(const fs::path& file, const fs::path& folder, const fs::path& started) {
   constexpr double kWhileItIsMoved = 60;  // [s]
   struct stat result {};
   struct stat start {};
-  if (::stat(started.c_str(), &start) != 0 || ::stat(file.c_str(), &result) != 0) return false;
-  return Seconds(result.st_mtim) < Seconds(start.st_mtim) &&
-         Seconds(result.st_ctim) - Seconds(result.st_mtim) > kWhileItIsMoved;
+  const fs::path began = folder / started;
+  if (::stat(began.c_str(), &start) != 0 || ::stat(file.c_str(), &result) != 0) return false;
+  const bool was_copied = Seconds(result.st_ctim) - Seconds(result.st_mtim) > kWhileItIsMoved;
+  return Seconds(result.st_mtim) < Seconds(start.st_mtim) && (was_copied || !LiesIn(file, folder));
 }
 
 std::string Digits(const std::string& text, std::size_t start) {
@@ -123,7 +131,7 @@ bool NaturalLess(const std::string& a, const std::string& b) {
 fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const fs::path& started) {
   std::vector<fs::path> matches = Matches(engine, folder);
   const bool any = !matches.empty();
-  std::erase_if(matches, [&](const fs::path& path) { return IsOldCopy(path, folder / started); });
+  std::erase_if(matches, [&](const fs::path& path) { return IsOld(path, folder, started); });
   if (matches.size() > 1) {
     std::erase_if(matches, [](const fs::path& path) { return path.filename() == rigs::kHeapFile; });
   }

@@ -11,8 +11,9 @@
 namespace talus::trials {
 
 // The file that `engine.result` means: of several the last in natural order (heap_9 < heap_10).
-// One that was copied with a time before `started`, a file of the trial's start, is none of this
-// trial. Throws base::Error, with the end of the log, when there is none.
+// One of before `started`, a file of the trial's start, is none of this trial, where it lies
+// elsewhere or was copied here with its former time, a minute old or more. Throws base::Error, with
+// the end of the log, when there is none.
 std::filesystem::path FindResult(const CommandOptions& engine, const std::filesystem::path& folder,
                                  const std::filesystem::path& started);
 

@@ -44,15 +44,21 @@ Base FindBase(const GrayImage& image) {
 // that overhangs powder of some views hangs over the rim: there the columns of nearly every view
 // count.
 std::pair<double, double> Ends(const GrayImage& image, const Base& base) {
-  constexpr double kOverhangs = 1;  // [px]
-  const Outline outline = FindOutline(
-      image, {.width = image.width, .height = image.height, .baseline = base.row + 1.0});
-  const Overhang overhang = FindOverhang(outline);
+  constexpr double kOverhangs = 1;          // [px]
+  constexpr double kSomeViews = 0.9 * 255;  // powder in a tenth of them
+  const Frame frame{.width = image.width, .height = image.height, .baseline = base.row + 1.0};
+  const Outline outline = FindOutline(image, frame);
+  const Overhang overhang = WorstOverhang(outline, FindOutline(image, frame, kSomeViews));
   if (outline.rows.size() < 2 || std::max(overhang.left, overhang.right) > kOverhangs) {
     return {base.first, base.last + 1};
   }
   const RowExtent& lowest = outline.rows[0];
   const RowExtent& next = outline.rows[1];
+  // A row far wider than the next is a plate's edge or a layer on it, and no part of a slope.
+  constexpr double kFarthest = 4;  // [px], of a slope of 14 degrees
+  if (std::max(next.left - lowest.left, lowest.right - next.right) > kFarthest) {
+    return {base.first, base.last + 1};
+  }
   return {1.5 * lowest.left - 0.5 * next.left, 1.5 * lowest.right - 0.5 * next.right};
 }
 

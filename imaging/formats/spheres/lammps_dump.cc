@@ -83,7 +83,9 @@ bool NextFrame(TextCursor& cursor, DumpFrame& frame) {
   while (!found) {
     if (cursor.AtEnd()) {
       if (!begun) return false;
-      cursor.Fail("a frame ends in its head; was the simulation cut off while it wrote?");
+      cursor.Fail(
+          "a frame ends in its head; was the simulation cut off while it wrote? Simulate again, or "
+          "cut this frame away");
     }
     const std::string_view line = cursor.Line();
     if (Trimmed(line).empty()) continue;

@@ -181,6 +181,13 @@ TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
   const std::string csv = analysis::TrialsCsv(journal.Campaign(), journal.Trials());
   EXPECT_THAT(csv, HasSubstr(",heap,2,"));
   EXPECT_THAT(csv, HasSubstr(",fast lift,2,"));
+  // A deck that echoes what it was given took the parameter's place.
+  std::vector<journal::TrialRecord> trials = journal.Trials();
+  trials[0].metrics.push_back({"sliding_friction", 99, "-", "", 0});
+  trials[0].metrics.push_back({"status", 1, "-", "", 0});
+  EXPECT_THAT(analysis::TrialsCsv(journal.Campaign(), trials),
+              ::testing::AllOf(HasSubstr(",scale_factor,sliding_friction,"),
+                               HasSubstr(",sliding_friction_of_engine,status_of_engine,")));
 }
 
 // The page draws what the verdict states; both are of the model that is asked again.

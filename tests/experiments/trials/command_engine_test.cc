@@ -251,6 +251,19 @@ TEST_F(CommandEngineTest, AResultThatAClockDatesBeforeTheTrialIsItsResult) {
   EXPECT_EQ(FindResult(options_, folder, ".command.json").filename(), "heap.csv");
 }
 
+// Through a link to a folder that all trials share: the command of the next one may have failed
+// silently, and leaves that of the trial before.
+TEST_F(CommandEngineTest, AResultElsewhereOfBeforeTheTrialIsNone) {
+  fs::create_directories(root_ / "shared");
+  Deck("run.sh", "ln -sfn ../shared post\n");
+  base::WriteFileAtomically(root_ / "shared/heap.csv", "x,y,z,r\n0,0,1e-3,1e-3\n",
+                            base::Outlives::kProgram);
+  fs::last_write_time(root_ / "shared/heap.csv",
+                      fs::file_time_type::clock::now() - std::chrono::seconds(2));
+  options_.result = "post/heap.csv";
+  EXPECT_THAT(FailureOf(), HasSubstr("that is not older than the trial"));
+}
+
 // What another program leaves has no checksum: a bit turned over in it was another answer, where
 // the journal was made anew from the trials' folders.
 TEST_F(CommandEngineTest, ATrialWhoseFilesHaveChangedSinceTheyWereMeasuredIsRunAgain) {
