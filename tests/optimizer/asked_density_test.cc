@@ -71,8 +71,8 @@ TEST(AskedDensity, IsTheMarginalOfANormalDensity) {
       point.head(2) += root * radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       point.tail(2).setConstant(0.9);  // does not count
       const double log_density = asked.LogDensity(point.transpose())[0];
-      // 48 nodes, spread by a thousand draws, leave 0.2; without the nuisances' correlation it would
-      // be off by 2 and more.
+      // 48 nodes, spread by a thousand draws, leave 0.2; without the nuisances' correlation it
+      // would be off by 2 and more.
       EXPECT_NEAR(log_density - at_mean, -0.5 * radius * radius, 0.2);
       EXPECT_NEAR(sample.CredibleLevel(log_density), 1 - std::exp(-0.5 * radius * radius), 0.04);
     }

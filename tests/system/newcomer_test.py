@@ -73,7 +73,7 @@ class TubeAndDrum(unittest.TestCase):
     # Without being asked, within the share of the core time that the spec allows.
     def test_a_campaign_that_leaves_a_curve_looks_into_further_tests(self):
         self.assertIn(self.result["verdict"]["kind"], ("curve", "region"))
-        self.assertRegex(self.terminal, r"looks into further tests for at most \d+ s of core time \(the spec's next\.share\)")
+        self.assertRegex(self.terminal, r"looks into further tests for at most \d+ s of core time in all \(the spec's next\.share\)")
         self.assertIn(f"`talus next {MADE / 'run'}` lists all", self.terminal)
         self.assertRegex(self.terminal, r"further tests +\S.*: expected to leave sliding_friction 0\.\d+, rolling_friction")
         table = json.loads((self.out / "next/next.json").read_text())

@@ -185,9 +185,10 @@ TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
   std::vector<journal::TrialRecord> trials = journal.Trials();
   trials[0].metrics.push_back({"sliding_friction", 99, "-", "", 0});
   trials[0].metrics.push_back({"status", 1, "-", "", 0});
-  EXPECT_THAT(analysis::TrialsCsv(journal.Campaign(), trials),
-              ::testing::AllOf(HasSubstr(",scale_factor,sliding_friction,"),
-                               HasSubstr(",sliding_friction_of_engine,status_of_engine,")));
+  EXPECT_THAT(
+      analysis::TrialsCsv(journal.Campaign(), trials),
+      ::testing::AllOf(HasSubstr(",scale_factor,sliding_friction,"),
+                       HasSubstr(",sliding_friction_of_engine,"), HasSubstr(",status_of_engine,")));
 }
 
 // The page draws what the verdict states; both are of the model that is asked again.
