@@ -273,49 +273,38 @@ class Card(unittest.TestCase):
             self.assertNotRegex(plain, "A6|A7")
             self.assertRegex(card(self.folder, name, surface_energy=1e-4, models=variants), "(?s)A6.*A7")
 
-    # Plate and tube as the card gives them, without their comment marks: a grain falls onto the plate.
-    def test_walls_of_the_lammps_card_hold_a_grain(self):
+    def after_walls(self, lines, walls, place, commands, end, columns):
+        """What LAMMPS has in `columns` of a grain at `place` that meets the card's own walls, at `end` [s]."""
         if not shutil.which("lmp"):
             self.skipTest("lmp is not installed")
+        (self.folder / "atoms.data").write_text(
+            f"a grain\n\n1 atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.05 0.05 ylo yhi\n-0.05 0.3 zlo zhi\n\n"
+            f"Atoms\n\n1 1 {DIAMETER} {MATERIAL['density']} {place[0]} {place[1]} {place[2]}\n")
+        (self.folder / "in.deck").write_text(
+            "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
+            "read_data atoms.data\nneighbor 2e-4 bin\n" + lines + "\n".join(walls) + f"\n{commands}\n"
+            f"fix motion all nve/sphere\nrun {round(end / time_step(lines))}\ndump last all custom 1 last.dump {columns}\n"
+            "dump_modify last format float %.9g\nrun 0\n")
+        done = subprocess.run(["lmp", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+        return [float(word) for word in (self.folder / "last.dump").read_text().splitlines()[-1].split()]
+
+    # Plate and tube as the card gives them, without their comment marks: a grain falls onto the plate.
+    def test_walls_of_the_lammps_card_hold_a_grain(self):
         lines = card(self.folder, "lammps", plate={"sliding_friction": 0.8})
         walls = [line[2:] for line in lines.splitlines() if re.match("# (variable|region|fix (tube|plate)) ", line)]
         self.assertEqual(len(walls), 6)
-        (self.folder / "atoms.data").write_text(
-            f"a grain\n\n1 atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.05 0.05 ylo yhi\n-0.05 0.3 zlo zhi\n\n"
-            f"Atoms\n\n1 1 {DIAMETER} {MATERIAL['density']} 0 0 {DIAMETER}\n")
-        (self.folder / "in.deck").write_text(
-            "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
-            "read_data atoms.data\nneighbor 2e-4 bin\n" + lines + "\n".join(walls) +
-            "\nfix weight all gravity 9.81 vector 0 0 -1\nfix motion all nve/sphere\n"
-            f"run {round(0.15 / time_step(lines))}\n"
-            f"dump last all custom 1 last.dump id z\ndump_modify last format float %.9g\nrun 0\n")
-        done = subprocess.run(["lmp", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
-        height = float((self.folder / "last.dump").read_text().split()[-1])
+        (height,) = self.after_walls(lines, walls, (0, 0, DIAMETER), "fix weight all gravity 9.81 vector 0 0 -1", 0.15, "z")
         self.assertAlmostEqual(height, DIAMETER / 2, delta=0.01 * DIAMETER)
 
     # Debian's LAMMPS makes other moduli of a wall's values than of a pair's: with the pair's line at the
     # plate the grain left at 0.0575 m/s where ours does at 0.092, spinning five times as fast.
     def test_a_grain_leaves_the_plate_of_the_lammps_card_as_ours(self):
-        if not shutil.which("lmp"):
-            self.skipTest("lmp is not installed")
-        speed, end = (0.1, 0, -0.3), 2e-3
+        place, speed, end = (0, 0, 0.51 * DIAMETER), (0.1, 0, -0.3), 2e-3
         lines = card(self.folder, "lammps", models={"rolling": "none"}, restitution=0.9)
         walls = [line[2:] for line in lines.splitlines() if re.match("# (region|fix) plate ", line)]
         self.assertEqual(len(walls), 2)
-        place = (0, 0, 0.51 * DIAMETER)
-        (self.folder / "atoms.data").write_text(
-            f"a grain\n\n1 atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.05 0.05 ylo yhi\n-0.05 0.05 zlo zhi\n\n"
-            f"Atoms\n\n1 1 {DIAMETER} {MATERIAL['density']} {place[0]} {place[1]} {place[2]}\n")
-        (self.folder / "in.deck").write_text(
-            "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
-            "read_data atoms.data\nneighbor 2e-4 bin\n" + lines + "\n".join(walls) +
-            f"\nvelocity all set {speed[0]} {speed[1]} {speed[2]}\nfix motion all nve/sphere\n"
-            f"run {round(end / time_step(lines))}\ndump last all custom 1 last.dump vx vz omegay\n"
-            "dump_modify last format float %.9g\nrun 0\n")
-        done = subprocess.run(["lmp", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
-        theirs = [float(word) for word in (self.folder / "last.dump").read_text().split()[-3:]]
+        theirs = self.after_walls(lines, walls, place, "velocity all set {} {} {}".format(*speed), end, "vx vz omegay")
         (self.folder / "scene.json").write_text(json.dumps({
             "materials": [{"name": "powder", **MATERIAL, "restitution": 0.9}], "models": {"rolling": "none"},
             "gravity": [0, 0, 0], "time_step": time_step(lines),
