@@ -13,7 +13,7 @@ inline double CpuTime(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Of this process so far [s].
+// What this process has taken so far [s].
 inline double CpuTime() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -19,8 +19,8 @@ namespace {
 constexpr double kLeastLight = 0.25;   // share of a circle that is light: the ring hides it no more
 constexpr double kBeyondRing = 0.01;   // farther in, as the lens blurs the ring / radius
 constexpr double kThickestRing = 0.1;  // / radius
-// Of powder and light [grey levels]. Where both are dim less will do, as long as it is above the
-// camera's noise and half of the light.
+// Between powder and light [grey levels]. Where both are dim less will do, as long as it is above
+// the camera's noise and half of the light.
 constexpr double kLeastContrast = 40;
 constexpr double kDimContrast = 12;
 constexpr double kDimShare = 0.5;

@@ -91,7 +91,7 @@ Outline Between(const Outline& inner, const Outline& at, const Outline& outer) {
 
 }  // namespace
 
-// Of an even number of silhouettes half have powder over a whole strip, half-way between dark and
+// Half of an even number of silhouettes have powder over a whole strip, half-way between dark and
 // light, rounded up or down: the outline of the lower or of the higher heaps would be its one side.
 Outline FindOutline(const GrayImage& image, const Frame& frame, double level) {
   const Outline at = OutlineAt(image, frame, level);

@@ -244,7 +244,7 @@ TEST(Drum, SeriesHasErrors) {
   EXPECT_NEAR(drum.surface_sd, 4.1e-4, 0.4e-4);
 }
 
-// Of 30, 30, 30 and 42 degrees the mean picture has a surface of 30.3, and the rig the mean of 33.
+// The mean picture of 30, 30, 30 and 42 degrees has a surface of 30.3, and the rig the mean of 33.
 TEST(Drum, ASkewedSeriesHasTheMeanOfItsAngles) {
   std::vector<fs::path> photos;
   for (const double angle : {30.0, 30.0, 30.0, 42.0}) {

@@ -70,7 +70,7 @@ std::string OtherScale(const JointView& first, const JointView& batch) {
   return Differ("the finest scale factor simulated", there.Levels().back(), here.Levels().back());
 }
 
-// Of two batches' tests those that one has alone: ranges that rest on other tests are other ranges.
+// The tests that only one of two batches has: ranges that rest on other tests are other ranges.
 std::string OtherTests(const JointView& first, const JointView& batch) {
   const auto alone = [](const JointView& view, const JointView& other) {
     std::vector<std::string> names;

@@ -120,7 +120,7 @@ struct TypicalContact {
 enum class Against { kGrain, kWall };
 TypicalContact TypicalContactOf(const Card& card, const engine::PairConstants& pair,
                                 Against against);
-// Of two grains of the powder.
+// The contact of two grains of the powder.
 TypicalContact TypicalContactOf(const Card& card);
 
 // C_r/R*² there [kg/s] (R3), by `stiffness`, k_r/R*² [N/m], and η_r.

@@ -73,7 +73,7 @@ std::string RollingModel(const Card& card, const PairInput& input) {
          CardNumber(friction);
 }
 
-// Of a grain of material a against another, or a wall, of material b.
+// The law of a grain of material a against another, or a wall, of material b.
 std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b,
                       Against against, Version version) {
   const engine::PairConstants pair = engine::MakePairConstants(a, b, card.models);

@@ -165,7 +165,7 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   }
   fit.off = OffBy(measured, simulated, error);
   fit.meets = NumberMeets(measured, fit.off, error, degrees);
-  // Of an experiment that no set fits what is close is so all the same.
+  // Where no set fits an experiment, what is close to it is so all the same.
   if (IsImplausible(answer, experiment.name) && !(fit.off <= kCloseNumber)) fit.meets = Meets::kNo;
   fit.few_measured =
       measured.degrees > 0 && MostByChance(measured.degrees) * measured.standard_error >

@@ -43,8 +43,7 @@ double TimeOfOne(std::span<const journal::TrialRecord> trials, int experiment, d
   return count > 0 ? sum / count : 0;
 }
 
-// What so many trials of this duration take at most, where a late one has the machine to itself
-// [s].
+// What so many trials of this duration take at most [s]: the last may run alone.
 double Rounds(double count, double each, int at_a_time) {
   return std::ceil(std::max(0.0, count) / at_a_time) * each;
 }

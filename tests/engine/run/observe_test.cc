@@ -48,7 +48,7 @@ TEST(Contacts, TheForceActsOnTheFirstWhateverTheOrderOfTheSpheres) {
   }
 }
 
-// Of a sphere that slides along x on a disc in z = 0 only the normal force has a lever about the
+// A sphere slides along x on a disc in z = 0: only its normal force has a lever about the
 // disc's centre; at the sphere's own centre friction would have one of 1 mm.
 TEST(WallLoads, FrictionActsAtTheSurfaceOfTheWall) {
   Scene scene = testing::EmptySpace(testing::Glass());

@@ -34,7 +34,7 @@ double AreaOf(const WallMesh& mesh) {
 double Radius(const Vec3& p) { return Norm(Cross(p - kCenter, kNormal)); }
 double Height(const Vec3& p) { return Dot(p - kCenter, kNormal); }
 
-// Of a polygon of 64 corners in the circle.
+// The area of a polygon of 64 corners in the circle.
 const double kSegments = 64;
 double DiscArea(double radius) {
   return kSegments / 2 * std::sin(2 * std::numbers::pi / kSegments) * radius * radius;
@@ -64,7 +64,7 @@ TEST(WallMesh, ARectangleIsAsWideAlongItsEdge) {
   }
 }
 
-// Of a cone's band each face is a flat trapezium.
+// Each face of a cone's band is a flat trapezium.
 TEST(WallMesh, ConesAndCylindersStandOnTheirBase) {
   const WallMesh cone = MeshOf(engine::Cone{kCenter, kNormal, 0.2, 0.05, 0.3});
   for (const Vec3& p : cone.points) {

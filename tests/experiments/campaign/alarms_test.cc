@@ -53,7 +53,7 @@ TEST(Alarms, ConfirmedWorseThanPredictedIsSaid) {
               HasSubstr("misses \"heap\" by 8, 4 more than the model predicted"));
 }
 
-// Of an angle the mean profile's mm² and the noise floor say nothing.
+// The mean profile's mm² and the noise floor say nothing of an angle.
 TEST(Alarms, AnAngleIsNotHeldAgainstAnArea) {
   Answer answer = ConfirmedAt(7.99);
   answer.objective = "aor2_difference_deg";

@@ -301,7 +301,7 @@ TEST(Surface, TheSlopeOfARampIsItsAngle) {
   EXPECT_NEAR(AngleOf(Observable::kAngle, surface).value, std::atan(0.5) * 180 / std::numbers::pi,
               0.2);
   EXPECT_FALSE(AngleOf(Observable::kAngle, {}).undefined.empty());
-  // Of a bed from -4.95 to -0.95 what lies below -1.35 has moved: the strips from x = 3 on.
+  // In a bed from -4.95 to -0.95 what lies below -1.35 has moved: the strips from x = 3 on.
   const auto sunken = Sunken(surface, {.floor = -4.95, .height = 4});
   EXPECT_NEAR(sunken.front().x, 3.25, 1e-9);
   EXPECT_EQ(sunken.back().x, surface.back().x);
