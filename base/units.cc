@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/digit_groups.h"
 #include "base/error.h"
 #include "base/replaced.h"
 #include "base/trimmed.h"
@@ -114,28 +115,6 @@ constexpr std::size_t kUnitsNamed = 4;
     separator = ", ";
   }
   throw ConfigError(message);
-}
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-bool AreDigits(std::string_view text) {
-  return !text.empty() && std::ranges::all_of(text, IsDigit);
-}
-
-// "1,602" and "12,345,678" with a comma between the groups: one to three digits, no zero first,
-// then three each.
-bool IsGrouped(std::string_view whole, char separator) {
-  constexpr std::size_t kGroup = 3;
-  const std::size_t first = whole.find(separator);
-  if (first == std::string_view::npos || first > kGroup || !AreDigits(whole.substr(0, first)) ||
-      whole.front() == '0') {
-    return false;
-  }
-  for (std::size_t at = first; at < whole.size(); at += kGroup + 1) {
-    const std::string_view group = whole.substr(at + 1, kGroup);
-    if (whole[at] != separator || group.size() != kGroup || !AreDigits(group)) return false;
-  }
-  return true;
 }
 
 // "1,602.5" as "1602.5", and "1.602,5" so, too; none where the groups are not of thousands.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/digit_groups.h"
 #include "base/error.h"
 #include "base/text/byte_order_mark.h"
 
@@ -73,17 +74,9 @@ struct Commas {
   bool has_whole = false;        // another one has a point, or three digits and no comma
 };
 
-bool AreDigits(std::string_view text) {
-  return !text.empty() &&
-         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
-}
-
-// "1,250": three digits behind the comma, and one to three before it without a zero first.
+// "1,250", which may be a decimal as well.
 bool MayBeGrouped(std::string_view field) {
-  const std::size_t comma = field.find(',');
-  return comma != std::string_view::npos && comma <= 3 && field.size() == comma + 4 &&
-         field.front() != '0' && AreDigits(field.substr(0, comma)) &&
-         AreDigits(field.substr(comma + 1));
+  return base::IsGrouped(field, ',') && field.find(',') == field.rfind(',');
 }
 
 // As instruments write a share that is next to nothing.
@@ -208,7 +201,7 @@ class TableReader {
     if (MayBeGrouped(field) && !commas.one_group) commas.one_group = line_number_;
     // Decimals of a cumulative share may end at a bare 100.
     commas.has_whole |= field.find('.') != std::string::npos ||
-                        (field.size() >= 3 && field != "100" && AreDigits(field));
+                        (field.size() >= 3 && field != "100" && base::AreDigits(field));
     if (!commas.one_group || !commas.has_whole) return;
     RefuseLine(*commas.one_group,
                "has a comma between thousands; write 1250, not 1,250, or decimals with a point");

@@ -26,8 +26,7 @@ constexpr double kLeastRestitution = 0.126;  // what it rebounds with then: √5
 struct PairInput {
   const engine::Material& a;
   const engine::Material& b;
-  engine::PairConstants pair;
-  TypicalContact typical;
+  TypicalContact typical;  // with the pair's constants
   Against against;
 };
 
@@ -45,27 +44,28 @@ struct Damping {
 Damping DampingOf(const PairInput& input, Version version) {
   const double restitution = engine::HarmonicMean(input.a.restitution, input.b.restitution);
   if (version == Version::kOf2022) return {TsujiRestitution(restitution), "tsuji"};
-  if (!(input.pair.surface_energy > 0)) return {restitution, "coeff_restitution"};
-  return {input.pair.normal_damping / std::sqrt(input.typical.radius * input.typical.m_star),
-          "viscoelastic"};
+  if (!(input.typical.pair.surface_energy > 0)) return {restitution, "coeff_restitution"};
+  return {
+      input.typical.pair.normal_damping / std::sqrt(input.typical.radius * input.typical.m_star),
+      "viscoelastic"};
 }
 
 std::string NormalModel(const Card& card, const PairInput& input, const Damping& damping) {
-  const bool adhesive = input.pair.surface_energy > 0;
+  const bool adhesive = input.typical.pair.surface_energy > 0;
   const std::string model = !adhesive                                        ? "hertz/material "
                             : card.models.adhesion == engine::Adhesion::kDmt ? "dmt "
                                                                              : "jkr ";
   const double poisson = input.against == Against::kWall ? 0 : input.a.poisson_ratio;
-  const double modulus = 2 * (1 - poisson * poisson) * input.pair.y_star;
+  const double modulus = 2 * (1 - poisson * poisson) * input.typical.pair.y_star;
   std::string text =
       model + CardNumber(modulus) + " " + CardNumber(damping.value) + " " + CardNumber(poisson);
-  if (adhesive) text += " " + CardNumber(input.pair.surface_energy / 2);
+  if (adhesive) text += " " + CardNumber(input.typical.pair.surface_energy / 2);
   return text;
 }
 
 std::string RollingModel(const Card& card, const PairInput& input) {
   if (card.models.rolling != engine::Rolling::kEpsd) return "rolling none";
-  const double friction = input.pair.rolling_friction;
+  const double friction = input.typical.pair.rolling_friction;
   const double k_roll = 2.25 * input.typical.normal_stiffness * friction * friction;
   const double damping = engine::HarmonicMean(input.a.rolling_damping, input.b.rolling_damping);
   return "rolling sds " + CardNumber(k_roll) + " " +
@@ -77,7 +77,7 @@ std::string RollingModel(const Card& card, const PairInput& input) {
 std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b,
                       Against against, Version version) {
   const engine::PairConstants pair = engine::MakePairConstants(a, b, card.models);
-  const PairInput input{a, b, pair, TypicalContactOf(card, pair, against), against};
+  const PairInput input{a, b, TypicalContactOf(card, pair, against), against};
   const std::string spring =
       against == Against::kWall ? CardNumber(pair.shear_stiffness) : "NULL";  // 8 G*
   const double dashpot = 2 * std::sqrt(pair.shear_stiffness / 8 / pair.y_star);
