@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -51,6 +52,19 @@ void WarnOfViews(const std::vector<MeasuredRun>& runs, std::vector<PhotoWarning>
     if (off[i] == 0) continue;
     warnings.push_back({.doubt = PhotoDoubt::kViewDisagrees, .photo = photos[i], .value = off[i]});
   }
+}
+
+// None where the tilt was given.
+std::optional<PhotoWarning> DoubtOfTilt(const ExperimentOptions& options,
+                                        const PhotoCollection& collection,
+                                        const Placement& placement) {
+  if (options.frame || placement.poses.empty()) return std::nullopt;
+  const auto tilt = [](const PlatePose& pose) { return std::abs(pose.tilt); };
+  const auto most = std::ranges::max_element(placement.poses, {}, tilt);
+  if (tilt(*most) <= kMuchTilted) return std::nullopt;
+  const auto photo = static_cast<std::size_t>(most - placement.poses.begin());
+  return PhotoWarning{
+      .doubt = PhotoDoubt::kTilted, .photo = collection.photos[photo].path, .value = tilt(*most)};
 }
 
 std::vector<GrayImage> RunImages(const Experiment& experiment) {
@@ -144,6 +158,9 @@ void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   WarnOfUnread(options, set, result.warnings);
   const Placement placement = Place(options, collection);
   if (placement.hidden_top) result.warnings.push_back({.doubt = PhotoDoubt::kHiddenTop});
+  if (auto doubt = DoubtOfTilt(options, collection, placement)) {
+    result.warnings.push_back(std::move(*doubt));
+  }
   if (placement.unseen > 0) {
     result.warnings.push_back({.doubt = PhotoDoubt::kBeyondPicture, .value = placement.unseen});
   }

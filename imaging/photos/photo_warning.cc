@@ -6,6 +6,7 @@
 
 #include "base/median.h"
 #include "base/text/plain_number.h"
+#include "base/units.h"
 
 namespace talus::imaging {
 namespace {
@@ -52,6 +53,10 @@ std::string Reason(const PhotoWarning& warning) {
       return "no photograph shows the plate's top, as powder hides it or nothing is sharp: the "
              "baseline may be as much too low as powder hangs over the rim; brush the rim clean, "
              "focus on the plate, or give \"frame\" (--frame)";
+    case PhotoDoubt::kTilted:
+      return "the plate looks tilted by " + base::PlainNumber(warning.value / base::kDegree, 2) +
+             " degrees, and beyond some five its edges are misread: level the camera, turn the "
+             "photographs, or give \"frame\" and \"tilt\" (--frame, --tilt)";
     case PhotoDoubt::kBeyondPicture:
       return Percent(warning.value) +
              " of the part of the table that counts lies beyond the picture, so that powder there "

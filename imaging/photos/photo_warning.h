@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/units.h"
 #include "imaging/heap/profile.h"
 #include "imaging/photos/ground.h"
 
@@ -23,6 +24,7 @@ enum class PhotoDoubt {
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
   kHiddenTop,      // no photograph shows the plate's top
+  kTilted,         // plate or table, farther than its edges are looked for; value: tilt [rad]
   kBeyondPicture,  // value: share of a table's part that counts and that no picture shows [-]
   kNoPowder,       // nothing stands on the plate
   kTouchesFrame,   // powder at the picture's edge
@@ -67,6 +69,7 @@ double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame);
 
 inline constexpr double kMuchBesidePlate = 0.01;  // [-]
 inline constexpr double kMuchOverexposed = 0.5;   // [-]
+inline constexpr double kMuchTilted = 4 * base::kDegree;
 // When more photographs than these are alike in a fault, one line says how many they are.
 inline constexpr std::ptrdiff_t kMostSingle = 3;
 
@@ -91,6 +94,7 @@ struct talus::base::Names<talus::imaging::PhotoDoubt> {
                                     std::pair{"front_lit", kFrontLit},
                                     std::pair{"mixed_light", kMixedLight},
                                     std::pair{"hidden_top", kHiddenTop},
+                                    std::pair{"tilted", kTilted},
                                     std::pair{"beyond_picture", kBeyondPicture},
                                     std::pair{"no_powder", kNoPowder},
                                     std::pair{"touches_frame", kTouchesFrame},

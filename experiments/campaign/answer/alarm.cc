@@ -168,7 +168,7 @@ std::string AlarmText(const Alarm& a) {
 Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment) {
   Alarm alarm{.experiment = experiment, .value = warning.value, .reason = warning.text};
   if (!warning.photo.empty()) alarm.photo = warning.photo;
-  alarm.kind = base::EnumNamed<AlarmKind>(warning.kind).value_or(alarm.kind);
+  alarm.kind = base::EnumNamed<AlarmKind>(warning.kind).value_or(AlarmKind::kUnread);
   return alarm;
 }
 

@@ -47,6 +47,7 @@ enum class AlarmKind {
   kFrontLit,
   kMixedLight,
   kHiddenTop,
+  kTilted,
   kBeyondPicture,
   kNoPowder,
   kTouchesFrame,
