@@ -92,13 +92,11 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
       console_.Line("ends after " + base::Counted(std::ssize(running_), "running trial") +
                     "; press Ctrl-C again to drop them");
     }
-    if (running_.empty()) {
-      if (started) continue;  // they had ended in an earlier process
-      return End(asked);
-    }
+    if (running_.empty() && started) continue;  // they had ended in an earlier process
+    if (running_.empty()) return End(asked);
     ShowStatus();
-    ShowTrouble();
     for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
+    NoteElapsed(std::chrono::minutes(1));  // trials of hours: a reboot is not to forget them
   }
 }
 
@@ -353,10 +351,8 @@ void Campaign::Tell(EndedTrial& ended) {
   Report(trial);
 }
 
-// Not with every trial: it waits for the disk.
-void Campaign::NoteElapsed() {
-  constexpr auto kPeriod = std::chrono::seconds(2);
-  if (Clock::now() - noted_ < kPeriod) return;
+void Campaign::NoteElapsed(std::chrono::seconds period) {
+  if (Clock::now() - noted_ < period) return;
   noted_ = Clock::now();
   NoteProgress();
 }
@@ -398,6 +394,7 @@ void Campaign::ShowStatus() {
   if (spec_.budget.core_time) progress.core_seconds = use.core_seconds;
   if (best_) std::tie(progress.best, progress.best_trial) = *best_;
   console_.Status(progress);
+  ShowTrouble();
 }
 
 }  // namespace talus::campaign

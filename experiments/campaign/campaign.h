@@ -93,7 +93,8 @@ class Campaign {
   void Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile);
   bool TellEnded();
   void Tell(EndedTrial& ended);
-  void NoteElapsed();
+  // Not with every trial: it waits for the disk.
+  void NoteElapsed(std::chrono::seconds period = std::chrono::seconds(2));
   void NoteStop(const std::vector<journal::TrialRecord>& planned);
   void NoteProgress();
   void DropRunning();

@@ -17,19 +17,19 @@
 namespace talus::campaign {
 namespace {
 
-// Trials that a cluster's queue has would run a second time on this machine, in the same folders.
-void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& root,
-                       const std::vector<runners::Job>& jobs) {
-  const std::filesystem::path records = root / "slurm";
-  if (spec.runner.kind != RunnerKind::kLocal || !std::filesystem::exists(records)) return;
-  runners::SlurmRunner former(spec.runner.slurm, root);
+// Of what a queue was given for this folder. `jobs`: those that count; none: all.
+void RequireNoneQueued(const runners::SlurmOptions& options, const std::filesystem::path& folder,
+                       const std::vector<runners::Job>* jobs) {
+  const std::filesystem::path records = folder / "slurm";
+  if (!std::filesystem::exists(records)) return;
+  runners::SlurmRunner former(options, folder);
   int num_queued = 0;
   try {
-    for (const runners::Job& job : jobs) former.Adopt(job, "");
+    for (const runners::Job& job : jobs != nullptr ? *jobs : former.Known()) former.Adopt(job, "");
     num_queued = former.NumInQueue();
   } catch (const base::Error& error) {
     throw base::Error(std::string(error.what()) +
-                      "; its jobs must have ended before the trials run on this machine: resume "
+                      "; its jobs must have ended before trials run on this machine: resume "
                       "where Slurm answers, or remove " +
                       records.string() + " if you know that they have");
   }
@@ -37,6 +37,17 @@ void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& ro
   throw base::ConfigError("runner: " + base::Counted(num_queued, "job") +
                           " of this campaign may still run in Slurm's queue, and would run here a "
                           "second time; end them with scancel, or resume with the former runner");
+}
+
+// Trials that a cluster's queue has would run a second time on this machine, in the same folders;
+// so would the runs beside them, of a goal, a prediction or a further test.
+void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& root,
+                       const std::vector<runners::Job>& jobs) {
+  if (spec.runner.kind != RunnerKind::kLocal) return;
+  RequireNoneQueued(spec.runner.slurm, root, &jobs);
+  for (const auto& entry : std::filesystem::directory_iterator(root)) {
+    if (entry.is_directory()) RequireNoneQueued(spec.runner.slurm, entry.path(), nullptr);
+  }
 }
 
 }  // namespace

@@ -11,6 +11,10 @@ std::optional<int> SignalOf(int status) {
   return signal;
 }
 
+bool IsFromOutside(int signal) {
+  return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+}
+
 std::string SignalText(int signal) {
   return "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }

@@ -11,6 +11,9 @@ inline constexpr int kNoCommand = 127;  // of a command that is not there
 // The signal that ended the command: 128 and its number. 255, which `exit(-1)` leaves, is none.
 std::optional<int> SignalOf(int status);
 
+// Signals that others send; a program that goes wrong by itself gets one of the rest.
+bool IsFromOutside(int signal);
+
 // "was ended by signal 9 (Killed)".
 std::string SignalText(int signal);
 

@@ -192,11 +192,6 @@ std::vector<std::string> Environment(int threads, const std::string& mark) {
   return list;
 }
 
-// Signals that others send; a program that goes wrong by itself gets one of the rest.
-bool IsFromOutside(int signal) {
-  return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
-}
-
 }  // namespace
 
 LocalRunner::LocalRunner(const LocalRunnerOptions& options)

@@ -79,7 +79,7 @@ void AddJobs(std::ostream& out, const Batch& batch) {
     for (const std::string& argument : job.command) out << ' ' << base::ShellQuoted(argument);
     out << " ) ;;\n";
   }
-  out << "esac\n";
+  out << "*) exit 1 ;;\nesac\n";
 }
 
 constexpr const char* kInSetUp = "set-up";  // last word of a task's end that its set-up has made
@@ -94,8 +94,9 @@ void AddEnd(std::ostream& out, const Batch& batch) {
       << "}\n"
       << "write_end() {\n"
       << "  cd \"$folder\" || return\n"  // the set-up may have gone elsewhere
-      << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) $4 >"
-      << rigs::kTaskEndPart << "\n"
+      << "  echo " << batch.number
+      << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} ${HOSTNAME:-unknown} $4 >" << rigs::kTaskEndPart
+      << "\n"
       << "  mv " << rigs::kTaskEndPart << ' ' << rigs::kTaskEndFile << "\n"
       << "}\n";
 }
@@ -117,7 +118,8 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   AddEnd(out, batch);
   // A set-up that fails is none of the trial.
   out << "trap 'exit 143' TERM\n"
-      << "trap 'left=$?; [ $left -gt 128 ] || write_end $left 0 0 " << kInSetUp << "' EXIT\n";
+      << "trap 'left=$?; [ $left -gt 128 ] && [ $left -lt 193 ] || write_end $left 0 0 " << kInSetUp
+      << "' EXIT\n";
   if (!options.modules.empty()) {
     out << "module load";
     for (const std::string& module : options.modules) out << ' ' << base::ShellQuoted(module);
@@ -127,7 +129,9 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   // The set-up may have gone elsewhere, or have asked that a failing command ends the script.
   out << "set +eu\n"
       << "cd \"$folder\" || exit 1\n";
-  out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n";
+  // A step does not inherit what sbatch was asked for.
+  out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive"
+      << " SRUN_CPUS_PER_TASK=" << options.cores << "\n";
   for (const auto& [name, value] : kSharingRanks) out << "export " << name << '=' << value << '\n';
   out << "trap - EXIT TERM\n"
       << "started=$(now)\n"

@@ -39,7 +39,7 @@ FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
   if (NeverBegan(end)) {
     finished.end = JobEnd::kNotStarted;
   } else if (WasKilled(end)) {
-    finished.end = JobEnd::kSignal;
+    finished.end = IsFromOutside(*SignalOf(end.status)) ? JobEnd::kPreempted : JobEnd::kSignal;
   }
   if (end.restarts > 0) {
     finished.reason += ", after Slurm had requeued it " + std::to_string(end.restarts) + " times";

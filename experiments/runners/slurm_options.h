@@ -13,6 +13,9 @@ namespace talus::runners {
 
 inline constexpr double kYear = 366 * 86400.0;  // [s]: a longer limit is a slip of the unit
 
+// Why talus sets this option of sbatch itself, and what to do instead; "" where it does not.
+std::string OwnOptionOf(const std::string& directive);
+
 struct SlurmOptions {
   std::string partition{};             // "": the cluster's default
   std::string account{};               // "": the user's default
@@ -89,6 +92,8 @@ struct SlurmOptions {
       problems.Require(line.starts_with("-"), "directives",
                        "\"" + base::Printable(line) +
                            "\" must be an option of sbatch, such as --constraint=avx512");
+      const std::string own = OwnOptionOf(line);
+      problems.Require(own.empty(), "directives", "\"" + base::Printable(line) + "\" " + own);
     }
   }
   bool operator==(const SlurmOptions&) const = default;

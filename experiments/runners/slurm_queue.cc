@@ -28,6 +28,30 @@ double NumberOf(std::string_view text) {
   return number;
 }
 
+// sbatch takes a variable of the environment before the script's own line.
+constexpr std::array<std::pair<std::string_view, const char*>, 10> kOverrides{
+    {{"job-name", "SBATCH_JOB_NAME"},
+     {"array", "SBATCH_ARRAY_INX"},
+     {"output", "SBATCH_OUTPUT"},
+     {"open-mode", "SBATCH_OPEN_MODE"},
+     {"partition", "SBATCH_PARTITION"},
+     {"account", "SBATCH_ACCOUNT"},
+     {"qos", "SBATCH_QOS"},
+     {"time", "SBATCH_TIMELIMIT"},
+     {"mem", "SBATCH_MEM_PER_NODE"},
+     {"requeue", "SBATCH_NO_REQUEUE"}}};
+
+// `env` and what it is to take out of the environment, so that the script's lines hold. Squeue and
+// scancel do not know SBATCH_CLUSTERS, and a submission that waits for its jobs would not return.
+std::vector<std::string> WithoutOverrides(const std::string& script) {
+  std::vector<std::string> command{"env", "--unset=SBATCH_CLUSTERS", "--unset=SBATCH_WAIT"};
+  for (const auto& [option, variable] : kOverrides) {
+    if (script.find("\n#SBATCH --" + std::string(option)) == std::string::npos) continue;
+    command.push_back("--unset=" + std::string(variable));
+  }
+  return command;
+}
+
 }  // namespace
 
 bool IsUnfinished(const SlurmState& state) {
@@ -111,8 +135,9 @@ std::string ParseSubmitted(std::string_view output) {
 
 SubmitReply SlurmQueue::Submit(const std::filesystem::path& script,
                                const std::filesystem::path& reply_file) const {
-  const ToolResult result =
-      RunTool({"sbatch", "--parsable", script.string()}, {.output_file = reply_file});
+  std::vector<std::string> command = WithoutOverrides(base::ReadFile(script));
+  command.insert(command.end(), {"sbatch", "--parsable", script.string()});
+  const ToolResult result = RunTool(command, {.output_file = reply_file});
   SubmitReply reply;
   if (std::filesystem::exists(reply_file)) {
     reply.job = ParseSubmitted(base::ReadFile(reply_file));
@@ -151,7 +176,7 @@ StatesReply SlurmQueue::States(const std::set<std::pair<std::string, int>>& task
   }
   if (forgotten.empty()) return {.states = std::move(states), .error = {}};
   const ToolResult accounting =
-      RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--array",
+      RunTool({"sacct", "--noheader", "--parsable2", "--allocations",
                "--format=JobID,State,Elapsed", "--jobs=" + base::Joined(forgotten, ",")});
   // A cluster without accounting: what squeue has forgotten nobody knows. What squeue says counts.
   if (accounting.ok()) states.merge(ParseSacct(accounting.output));

@@ -54,6 +54,17 @@ std::optional<Submission> SlurmRecords::Last(const Job& job) const {
   return Submission{.batch = *last, .index = last_index, .num_submissions = count};
 }
 
+std::vector<Job> SlurmRecords::Known() const {
+  std::vector<Job> known;
+  for (const auto& [number, batch] : batches_) {
+    for (int index = 0; index < static_cast<int>(batch.jobs.size()); ++index) {
+      if (std::filesystem::exists(ForgottenMark(number, index))) continue;
+      known.push_back(batch.jobs[static_cast<std::size_t>(index)]);
+    }
+  }
+  return known;
+}
+
 void SlurmRecords::Forget(const Job& job) const {
   for (const auto& [number, batch] : batches_) {
     for (int index = 0; index < static_cast<int>(batch.jobs.size()); ++index) {

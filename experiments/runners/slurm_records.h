@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "experiments/runners/runner.h"
 #include "experiments/runners/slurm_batch.h"
@@ -31,6 +32,9 @@ class SlurmRecords {
 
   // An earlier process may have run the job more often than this one knows of: the last one counts.
   std::optional<Submission> Last(const Job& job) const;
+
+  // All jobs that are not forgotten.
+  std::vector<Job> Known() const;
 
   // What was submitted of the job so far is not found again, by later processes either.
   void Forget(const Job& job) const;

@@ -116,7 +116,10 @@ std::vector<std::string> SlurmRunner::Submit(std::span<const Job> jobs) {
 
 void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
   Batch batch{.number = records_.last_batch() + 1, .job_name = {}, .jobs = {}};
-  batch.job_name = name_ + "-talus-" + campaign_id_ + "-" + std::to_string(batch.number);
+  // A copy of the campaign has its number, too, but another place.
+  batch.job_name = name_ + "-talus-" + campaign_id_ + "-" +
+                   base::Hex(base::Checksum(folder_.string())).substr(0, 6) + "-" +
+                   std::to_string(batch.number);
   for (Task& task : tasks) {
     task.batch = batch.number;
     task.index = static_cast<int>(batch.jobs.size());
@@ -295,6 +298,7 @@ void SlurmRunner::Judge(Task task) {
   } else {
     FinishedJob finished = Finished(task.job.id, verdict.end, verdict.reason);
     finished.duration = task.ended->elapsed;
+    finished.cpu_time = CoresTime(task.ended->elapsed);  // as nobody measured it
     Report(task, std::move(finished));
   }
 }
@@ -312,13 +316,17 @@ void SlurmRunner::Requeue(Task task, const std::string& reason) {
   SubmitBatch({std::move(again)});
 }
 
+double SlurmRunner::CoresTime(double seconds) const {
+  return seconds * options_.cores * options_.ranks;
+}
+
 void SlurmRunner::Report(const Task& task, FinishedJob finished) {
   if (task.requeues > 0) {
     finished.reason += ", submitted again " + std::to_string(task.requeues) + " times" +
                        (task.requeue_reason.empty() ? "" : ": it " + task.requeue_reason);
   }
   finished.duration += task.lost;
-  if (finished.cpu_time > 0) finished.cpu_time += task.lost * options_.cores;
+  if (finished.cpu_time > 0) finished.cpu_time += CoresTime(task.lost);
   if (task.cancelled) {
     finished.end = JobEnd::kCancelled;
     finished.reason = "was cancelled";

@@ -41,6 +41,9 @@ class SlurmRunner : public Runner {
   // not answer.
   int NumInQueue();
 
+  // What this or an earlier process has submitted here and not forgotten, without commands.
+  std::vector<Job> Known() const { return records_.Known(); }
+
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -77,6 +80,7 @@ class SlurmRunner : public Runner {
   std::string LogOf(const Task& task) const;
   void Requeue(Task task, const std::string& reason);
   void Report(const Task& task, FinishedJob finished);
+  double CoresTime(double seconds) const;  // of all cores that a job has [s]
 
   SlurmOptions options_;
   std::filesystem::path folder_;  // DIR/slurm

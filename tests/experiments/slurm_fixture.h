@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 // is a file `hold`; squeue prints the file `queue`; scancel notes what it is to cancel.
 inline constexpr const char* kSbatch = R"(#!/bin/bash
 [ -e hold_sbatch ] && { cat hold_sbatch >&2; exit 1; }
+env | grep ^SBATCH_ >environment
 echo "$2" >>submitted
 number=$((100 + $(wc -l <submitted)))
 echo "$number"
@@ -48,7 +49,10 @@ class SlurmRunnerTest : public ::testing::Test {
     fs::create_directories(root_ / "bin");
     Program("sbatch", kSbatch);
     Program("squeue", kSqueue);
-    Program("sacct", "#!/bin/bash\ncat accounting 2>/dev/null || exit 1\n");
+    // That of Debian 12 does not know --array.
+    Program("sacct",
+            "#!/bin/bash\n[[ \" $* \" != *' --array '* ]] || exit 1\n"
+            "cat accounting 2>/dev/null || exit 1\n");
     Program("scancel", "#!/bin/bash\necho \"$1\" >>cancelled\n");
     old_path_ = std::getenv("PATH");
     ::setenv("PATH", ((root_ / "bin").string() + ":" + old_path_).c_str(), 1);

@@ -83,6 +83,78 @@ TEST_F(SlurmRunnerTest, JobsGivenTogetherAreOneArrayAndTellHowTheyEnded) {
   EXPECT_FALSE(finished[0].host.empty());
 }
 
+// sbatch takes them before the script's lines: a name that talus does not know, and a limit of five
+// minutes for trials of hours. What the script leaves open stays the user's.
+TEST_F(SlurmRunnerTest, TheEnvironmentDoesNotOverrideTheScript) {
+  const std::pair<const char*, const char*> variables[] = {{"SBATCH_JOB_NAME", "mine"},
+                                                           {"SBATCH_TIMELIMIT", "5"},
+                                                           {"SBATCH_CLUSTERS", "other"},
+                                                           {"SBATCH_PARTITION", "short"}};
+  for (const auto& [name, value] : variables) ::setenv(name, value, 1);
+  SlurmRunner runner(options_, root_ / "campaign");
+  Job job = Shell(1, "true");
+  job.time_cap = 7200;
+  runner.Submit({&job, 1});
+  for (const auto& [name, value] : variables) ::unsetenv(name);
+  EXPECT_EQ(Text("environment"), "SBATCH_PARTITION=short\n");
+}
+
+TEST(SlurmOptions, WhatTalusTellsSbatchItselfIsNoDirective) {
+  for (const char* own : {"--job-name=powder", "-J powder", "--array=0-9%2", "-a0-9", "--time=5",
+                          "--cluster=gpu", "-Mgpu", "--out x", "--wait"}) {
+    SlurmOptions options;
+    options.directives = {own};
+    base::Problems problems;
+    options.Validate(problems);
+    EXPECT_EQ(problems.size(), 1u) << own;
+  }
+  SlurmOptions options;
+  options.directives = {"--constraint=avx512", "-C avx512",   "--no-requeue",
+                        "--mem-per-cpu=1G",    "--exclusive", "--gres=gpu:1"};
+  base::Problems problems;
+  options.Validate(problems);
+  EXPECT_EQ(problems.size(), 0u);
+}
+
+TEST_F(SlurmRunnerTest, ASetUpThatEndsWith255IsNoFailureOfTheTrial) {
+  options_.setup = {"exit 255"};
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job job = Shell(1, "true");
+  runner.Submit({&job, 1});
+  Put("queue", "101_0|FAILED|NonZeroExitCode\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+}
+
+// As on one machine: whoever killed it says nothing of its parameters.
+TEST_F(SlurmRunnerTest, ACommandThatOthersKilledIsRunAgain) {
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "kill -9 $$"), Shell(2, "kill -SEGV $$")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|FAILED|NonZeroExitCode\n101_1|FAILED|NonZeroExitCode\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_EQ(finished[0].end, JobEnd::kPreempted);
+  EXPECT_EQ(finished[1].end, JobEnd::kSignal);
+}
+
+// Two hours at the limit, on 3 ranks of 2 cores: a later attempt's seconds were all that counted.
+TEST_F(SlurmRunnerTest, ATimedOutJobHasTakenItsCores) {
+  options_.cores = 2;
+  options_.ranks = 3;
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job job = Shell(1, "true");
+  runner.Submit({&job, 1});
+  Put("queue", "101_0|TIMEOUT|TimeLimit|2:00:00\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kTimeCap);
+  EXPECT_DOUBLE_EQ(finished[0].duration, 7200);
+  EXPECT_DOUBLE_EQ(finished[0].cpu_time, 6 * 7200);
+}
+
 TEST_F(SlurmRunnerTest, WhatTheSpecAsksForStandsInTheScript) {
   options_.partition = "main";
   options_.account = "powder";
