@@ -171,16 +171,27 @@ double Runout(const Case& c) {
   return std::isfinite(height) && height > 0 ? 2 * height : 0;
 }
 
-// A picture as wide as the rig's, with a margin, for a camera that was given none.
+// Height of the powder's top once it is filled in [m]; 0 of what is no case yet.
+double FilledTop(const Case& c) {
+  const Vessel vessel = EntryOf(c).vessel(c);
+  const double top = vessel.region.base.z + FilledHeight(c, vessel);
+  return std::isfinite(top) ? top : 0;
+}
+
+// A picture as wide as the rig's and as high as its powder, with a margin, for a camera that was
+// given none.
 imaging::Frame UsualFrame(const Case& c) {
   constexpr int kPixels = 480;
   constexpr double kMargin = 1.2;
+  constexpr double kAbove = (1 + 1 / kMargin) / 2;  // of the picture, above the baseline
   const double width = EntryOf(c).width(c);
+  const double wide = kMargin * (width + 2 * Runout(c));
+  const double high = 1.1 * FilledTop(c) / kAbove;
   return {.width = kPixels,
           .height = kPixels,
-          .pixel_size = kMargin * (width + 2 * Runout(c)) / kPixels,
+          .pixel_size = std::max(wide, high) / kPixels,
           .center_x = kPixels / 2.0,
-          .baseline = kPixels * (1 + 1 / kMargin) / 2,
+          .baseline = kPixels * kAbove,
           .plate_diameter = width};
 }
 

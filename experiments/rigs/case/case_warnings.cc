@@ -37,6 +37,14 @@ std::string FillingWarning(const Case& c) {
          "\"pour\"";
 }
 
+// The dense bed is near its tapped state, however cohesive the powder.
+std::string PackedWarning(const Case& c) {
+  if (c.filling.kind != FillingKind::kDense) return {};
+  return "FILLED DENSELY: such a bed starts near its packed state, so that poured_density is far "
+         "too "
+         "high and hausner_ratio near 1; pour it: \"filling\": {\"kind\": \"pour\"}";
+}
+
 // An opening that powder runs out of: by Beverloo's law at a rate of (D - k d)^power.
 struct Opening {
   const char* name;
@@ -139,6 +147,7 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
     if (!text.empty()) warnings.push_back(std::move(text));
   };
   if (c.rig.kind == RigKind::kLiftedTube) warn(FillingWarning(c));
+  if (c.rig.kind == RigKind::kTappedDensity) warn(PackedWarning(c));
   if (c.rig.kind == RigKind::kOrificeFlow) {
     warn(OpeningWarning(
         c, {.name = "orifice", .size = c.rig.orifice_flow.orifice, .lost = 1.5, .power = 2.5}));

@@ -1,6 +1,6 @@
 // How far a column runs out. x is along the channel, its origin in the middle of the column.
 //
-//   runout = x of the farthest grains - L/2     all but 1 % of the mass lies nearer
+//   runout = x of the front - L/2     the front: where the layer on the floor ends (surface.h)
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,6 @@ namespace talus::rigs {
 namespace {
 
 constexpr const char* kRunningOut = "running out";
-constexpr double kFront = 0.99;  // of the mass lies behind the front
 constexpr int kColumnFloor = 1;  // index of the wall
 
 struct GateMemory {
@@ -94,7 +93,7 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
 
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double length = rig_case().rig.column_collapse.length;
-    const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
+    const double front = Front(grains);
     // Grains that cling to a gate that has not come up are none of the heap.
     const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
     const std::vector<bool> stands = ContactSets(grains, contacts).Reaching(kColumnFloor);
@@ -102,7 +101,7 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
     for (std::size_t i = 0; i < grains.size(); ++i) {
       if (stands[i]) top = std::max(top, grains[i].position.z + grains[i].radius);
     }
-    const double runout = std::max(0.0, front - length / 2);
+    const double runout = front - length / 2;
     std::vector<Reading> all{{Observable::kRunout, runout},
                              {Observable::kHeight, top},
                              {Observable::kColumnHeight, state().bed.height},
@@ -112,12 +111,13 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
       return all;
     }
     // Between the foot of the end wall, or the top that has not moved, and the thin front.
-    const double reach = front + length / 2;
-    const SurfaceStrips middle{.from = -length / 2 + 0.2 * reach,
-                               .to = -length / 2 + 0.8 * reach,
+    const FormerBed bed{.height = state().bed.height};
+    const SurfaceStrips whole{.from = -length / 2, .to = front, .width = MeanDiameter()};
+    const double start = EndOfUnmoved(SurfaceOf(grains, whole), bed).value_or(whole.from);
+    const SurfaceStrips middle{.from = start + 0.2 * (front - start),
+                               .to = start + 0.8 * (front - start),
                                .width = MeanDiameter()};
-    all.push_back(AngleOf(Observable::kAngle,
-                          Sunken(SurfaceOf(grains, middle), {.height = state().bed.height})));
+    all.push_back(AngleOf(Observable::kAngle, Sunken(SurfaceOf(grains, middle), bed)));
     return all;
   }
 
@@ -127,13 +127,18 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
       warnings.push_back(base::Counted(memory().num_carried, "grain") +
                          " clung to the gate and went up with it");
     }
-    const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
-    if (front > rig_case().rig.column_collapse.length / 2) return warnings;
-    warnings.push_back("the column stands: less than 1 % of it ran out from behind the gate");
+    if (Front(grains) > rig_case().rig.column_collapse.length / 2) return warnings;
+    warnings.push_back("the column stands: no layer of it ran out from behind the gate");
     return warnings;
   }
 
  private:
+  // x of it; the gate's where nothing has run out.
+  double Front(GrainSpan grains) const {
+    const ColumnCollapseOptions& channel = rig_case().rig.column_collapse;
+    return EndOfLayer(grains, channel.length / 2, channel.width, MeanDiameter());
+  }
+
   // That the gate takes to the top of the bed [s].
   double OpeningTime() const {
     const auto& velocity = rig_case().rig.column_collapse.gate_velocity;

@@ -122,10 +122,11 @@ class DrawDownRig : public RememberingRig<FlowMemory> {
     const double passed = MassOf(below);
     std::vector<Reading> all{{Observable::kMassFallen, passed},
                              {Observable::kMassLeft, MassLeft(FilledMass(), passed)}};
-    for (Reading& reading : FlowReadings(memory().flow, passed, FilledMass(), kNoFlow)) {
+    const bool flows = HasFlowed(passed, FilledMass());
+    for (Reading& reading : FlowReadings(memory().flow, passed, flows, kNoFlow)) {
       all.push_back(std::move(reading));
     }
-    if (!HasFlowed(passed, FilledMass())) {
+    if (!flows) {
       all.push_back({.observable = Observable::kAngle, .undefined = kNoFlow});
       all.push_back({.observable = Observable::kShearAngle, .undefined = kNoFlow});
       return all;

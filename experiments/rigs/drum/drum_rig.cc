@@ -109,10 +109,18 @@ class DrumRig : public RememberingRig<DrumMemory> {
                            " mm, less than a hundredth of a grain");
     }
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
-    const double filled = FilledHeight(c, VesselOf(c));
+    const double filled = FilledHeight(c, VesselOf(c)) * LooserBy(c);
+    // Rounded down, so that it is taken.
+    const double most_mass = 0.01 * std::floor(1e5 * c.powder.mass * most / filled);  // [g]
     problems.Require(filled < most, "powder.mass", c.powder.mass,
                      "is too much for the drum: it is filled to six tenths at most, here some " +
-                         base::ShortNumber(1e3 * c.powder.mass * most / filled, 2) + " g");
+                         base::ShortNumber(most_mass) + " g");
+  }
+
+  // Few grains from front to back stand looser: 6 % higher where they are a sixth of the drum's
+  // width, 13 % where a third.
+  static double LooserBy(const Case& c) {
+    return 1 + 0.4 * EstimatePowder(c).mean_diameter / c.rig.drum.width;
   }
 
   static double Width(const Case& c) { return c.rig.drum.diameter; }

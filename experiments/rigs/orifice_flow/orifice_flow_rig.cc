@@ -126,9 +126,9 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double filled = FilledMass();
     const double passed = MassBelow(grains);
-    const bool flows = HasFlowed(passed, filled);
+    const bool flows = HasFlowed(passed, filled) || (passed > 0 && IsFree(grains));
     std::vector<Reading> all =
-        FlowReadings(memory().flow, passed, filled, "an arch stands above the orifice");
+        FlowReadings(memory().flow, passed, flows, "an arch stands above the orifice");
     all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
     all.push_back({Observable::kMassFallen, passed});
     all.push_back({Observable::kMassLeft, MassLeft(filled, passed)});
@@ -143,6 +143,15 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
       if (p.position.z < 0) mass += MassOf({&p, 1});
     }
     return mass;
+  }
+
+  // A shallow bed on a flat floor is left with a crater over the orifice: less than a tenth of it
+  // may have run out, and no arch stands.
+  bool IsFree(GrainSpan grains) const {
+    const double inner = std::max(rig_case().rig.orifice_flow.orifice / 4, MeanDiameter());
+    return std::ranges::none_of(grains, [&](const engine::Particle& p) {
+      return p.position.z > 0 && std::hypot(p.position.x, p.position.y) < inner;
+    });
   }
 
   double leave_height_ = 0;  // below which grains leave the scene [m]

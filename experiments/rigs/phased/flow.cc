@@ -39,11 +39,11 @@ double MassLeft(double filled, double passed) {
   return left > 1e-9 * filled ? left : 0;
 }
 
-std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, double filled,
+std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, bool flows,
                                   const std::string& none) {
   Reading time{Observable::kDischargeTime};
   Reading rate{.observable = Observable::kDischargeRate, .value = 0};
-  if (HasFlowed(passed, filled) && !flow.empty()) {
+  if (flows && !flow.empty()) {
     time.value = TimeOf(0.95 * passed, flow);
     rate.value = 0.4 * passed / (TimeOf(0.6 * passed, flow) - TimeOf(0.2 * passed, flow));
   } else {

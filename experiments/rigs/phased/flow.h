@@ -34,9 +34,9 @@ bool HasFlowed(double passed, double filled);
 // What has not [kg]; 0 where the sums differ by their rounding only.
 double MassLeft(double filled, double passed);
 
-// Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; where it
-// has not flowed the rate is 0, and the time has no value, `none` for a reason.
-std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, double filled,
+// Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; unless it
+// `flows` the rate is 0, and the time has no value, `none` for a reason.
+std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed, bool flows,
                                   const std::string& none);
 
 }  // namespace talus::rigs

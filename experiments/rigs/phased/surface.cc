@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/line_fit.h"
@@ -32,11 +33,48 @@ std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
   return surface;
 }
 
-std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed) {
+double EndOfLayer(std::span<const engine::Particle> grains, double from, double width,
+                  double diameter) {
+  constexpr double kLeast = 0.2;  // thickness of solid, in diameters
+  struct Strip {
+    double volume = 0;
+    double end = 0;  // the farthest edge of its grains
+  };
+  std::vector<Strip> strips;
+  for (const engine::Particle& p : grains) {
+    const double at = (p.position.x - from) / diameter;
+    if (!(at >= 0)) continue;
+    const auto k = static_cast<std::size_t>(at);
+    if (k >= strips.size()) strips.resize(k + 1);
+    strips[k].volume += 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
+    strips[k].end = std::max(strips[k].end, p.position.x + p.radius);
+  }
+  double end = from;
+  for (const Strip& strip : strips) {
+    if (strip.volume < kLeast * diameter * diameter * width) break;
+    end = std::max(end, strip.end);
+  }
+  return end;
+}
+
+namespace {
+
+bool HasSunk(const SurfacePoint& point, const FormerBed& bed) {
   constexpr double kUnmoved = 0.9;
-  std::erase_if(surface,
-                [&](const SurfacePoint& p) { return p.top > bed.floor + kUnmoved * bed.height; });
+  return point.top <= bed.floor + kUnmoved * bed.height;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed) {
+  std::erase_if(surface, [&](const SurfacePoint& p) { return !HasSunk(p, bed); });
   return surface;
+}
+
+std::optional<double> EndOfUnmoved(std::span<const SurfacePoint> surface, const FormerBed& bed) {
+  const auto last = std::find_if(surface.rbegin(), surface.rend(),
+                                 [&](const auto& p) { return !HasSunk(p, bed); });
+  return last == surface.rend() ? std::nullopt : std::optional(last->x);
 }
 
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface) {
@@ -51,7 +89,7 @@ Reading AngleOf(Observable observable, std::span<const SurfacePoint> surface) {
   if (const auto slope = SlopeOf(surface)) {
     angle.value = SlopeAngle(std::abs(*slope));
   } else {
-    angle.undefined = "the surface is fewer than three grains long";
+    angle.undefined = "the slope is fewer than three grains long";
   }
   return angle;
 }

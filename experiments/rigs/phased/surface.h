@@ -31,8 +31,18 @@ struct FormerBed {
   double height = 0;  // above it [m]
 };
 
+// Where a layer ends that begins at `from` and runs out along x over a floor of this width [m]: the
+// farthest edge of its grains, as far as every strip of a mean diameter holds a fifth of a diameter
+// of solid, half of what a loose single layer does. `from` where there is none. Single grains that
+// have rolled on are no layer.
+double EndOfLayer(std::span<const engine::Particle> grains, double from, double width,
+                  double diameter);
+
 // What lies below nine tenths of the former height: the rest has not moved, and is no slope.
 std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed);
+
+// x of the last strip that has not, along x; nothing where all have sunk.
+std::optional<double> EndOfUnmoved(std::span<const SurfacePoint> surface, const FormerBed& bed);
 
 // Slope of the least-squares line [-]; nothing for fewer than three points.
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface);

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/file.h"
+#include "experiments/rigs/filling/vessel.h"
 #include "experiments/rigs/phased/spheres.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
@@ -112,6 +114,20 @@ TEST(Camera, PicturesAfterTheEndAreAFailure) {
   } catch (const base::Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("had taken 1 of 2 pictures when running out ended"));
   }
+}
+
+// A bed in the upper box of a draw-down, 14 mm deep and 30 mm above the floor of a box of 20 mm:
+// its top was cut off.
+TEST(Camera, TheUsualPictureHoldsTheFilledPowder) {
+  nlohmann::json text = nlohmann::json::parse(
+      base::ReadFile(TALUS_SOURCE_DIR "/examples/rigs/draw_down.json"), nullptr, true, true);
+  text["rig"]["camera"] = {{"frames", 2}, {"interval", 0.01}};
+  text["rig"]["length"] = 0.02;
+  text["rig"]["height"] = 0.03;
+  const Case c = LoadCase(base::ParseJson(text.dump(), "case.json"));
+  ASSERT_TRUE(c.frame);
+  const double top = 0.03 + FilledHeight(c, EntryOf(c).vessel(c));
+  EXPECT_GT(c.frame->pixel_size * c.frame->baseline, top);
 }
 
 // Each picture of a film is what a camera sees that begins at its time.

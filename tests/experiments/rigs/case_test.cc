@@ -236,6 +236,14 @@ TEST(HeapScene, WarnsWhenTheScaleFactorClosesAnOpening) {
 
 // Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
 // γ = 3.75e-3 J/m², whatever the scale factor.
+TEST(HeapScene, WarnsWhenWhatIsToBeTappedIsPlacedDensely) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.rig.kind = RigKind::kTappedDensity;
+  EXPECT_THAT(CaseWarnings(rig_case), Contains(HasSubstr("FILLED DENSELY")));
+  rig_case.filling.kind = FillingKind::kPour;
+  EXPECT_THAT(CaseWarnings(rig_case), Not(Contains(HasSubstr("DENSELY"))));
+}
+
 TEST(HeapScene, WarnsWhenACohesivePowderIsPlacedDensely) {
   Case rig_case = LoadCase(kExample);
   rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};
