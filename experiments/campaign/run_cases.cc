@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/rigs/case/run_files.h"
 
@@ -143,7 +144,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       runners::Job job{.id = static_cast<std::int64_t>(next),
                        .folder = run.folder,
                        .command = {},
-                       .time_cap = runs.time_cap};
+                       .time_cap = runs.spec.trial_time_cap};
       if (engine.IsComplete(run.folder) || !TakeUp(job, run, parts)) {
         engine.Prepare(run.rig_case, run.folder);
         if (engine.IsComplete(run.folder)) {
@@ -162,7 +163,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       parts.runner->Forget({.id = job.id, .folder = folder, .command = {}});
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
-      KeepTime(job, runs.num_cores, folder);
+      KeepTime(job, CoresOfTrial(runs.spec), folder);
       if (IsFailure(job) && !engine.IsComplete(folder)) {
         base::WriteFileAtomically(folder / rigs::kFailedFile, "");
       }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/rigs/case/case.h"
 #include "experiments/trials/engines/trial_engine.h"
 
@@ -20,10 +21,9 @@ struct FolderCase {
 };
 
 struct CaseRuns {
+  const CampaignSpec& spec;  // whose time cap and cores each has
   std::size_t count = 0;
   std::function<FolderCase(std::size_t)> at;
-  double time_cap = 0;  // of each, wall-clock [s], > 0
-  int num_cores = 1;    // that each has, for one whose processor time is not known
   // Told of each when it has ended, well or not; those that were complete count as well.
   std::function<void(std::size_t)> has_ended = [](std::size_t) {};
 };

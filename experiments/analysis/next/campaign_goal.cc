@@ -16,7 +16,6 @@
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -187,15 +186,11 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
                 .model_error = view.spec.posterior.model_error};
   const bool is_first = Collect(state.core_time).num_runs == 0;
   const DesignRecord design = DesignOf(view, ground.draws, {folder}, is_first);
-  const campaign::CaseRuns runs{.count = design.points.size(),
-                                .at =
-                                    [&](std::size_t i) {
-                                      return campaign::FolderCase{
-                                          .folder = DesignFolder{folder}.trial(i),
-                                          .rig_case = CaseAt(folder, design, i)};
-                                    },
-                                .time_cap = view.spec.trial_time_cap,
-                                .num_cores = campaign::CoresOfTrial(view.spec)};
+  const campaign::CaseRuns runs{
+      .spec = view.spec, .count = design.points.size(), .at = [&](std::size_t i) {
+        return campaign::FolderCase{.folder = DesignFolder{folder}.trial(i),
+                                    .rig_case = CaseAt(folder, design, i)};
+      }};
   if (!campaign::RunCases(runs, parts_, interrupt)) return std::nullopt;
   state.core_time = 0;
   const Prediction all = Collect(state.core_time);

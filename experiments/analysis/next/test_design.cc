@@ -9,7 +9,6 @@
 #include "base/json/json_writer.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/folder/design_folder.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
@@ -92,15 +91,11 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
 
 void Simulate(const campaign::JointView& view, const TestCandidate& test,
               const campaign::DesignRecord& record, const campaign::CampaignParts& parts) {
-  const campaign::CaseRuns runs{.count = record.points.size(),
-                                .at =
-                                    [&](std::size_t i) {
-                                      return campaign::FolderCase{
-                                          .folder = FolderOf(view, test).trial(i),
-                                          .rig_case = CaseAt(view, test, record, i)};
-                                    },
-                                .time_cap = view.spec.trial_time_cap,
-                                .num_cores = campaign::CoresOfTrial(view.spec)};
+  const campaign::CaseRuns runs{
+      .spec = view.spec, .count = record.points.size(), .at = [&](std::size_t i) {
+        return campaign::FolderCase{.folder = FolderOf(view, test).trial(i),
+                                    .rig_case = CaseAt(view, test, record, i)};
+      }};
   if (campaign::RunCases(runs, parts)) return;
   throw base::Interrupted("interrupted; the same command goes on with \"" + test.name + "\"");
 }

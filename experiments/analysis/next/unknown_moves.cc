@@ -10,7 +10,6 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/campaign/folder/design_folder.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
@@ -148,11 +147,9 @@ UnknownTrials StoredUnknowns(const campaign::JointView& view, const MovedDesign&
 UnknownTrials SimulateUnknowns(const campaign::JointView& view, const MovedDesign& moved,
                                const campaign::CampaignParts& parts) {
   const std::vector<UnknownRun> list = RunsOf(moved.moves);
-  const campaign::CaseRuns runs{
-      .count = list.size(),
-      .at = [&](std::size_t i) { return FolderCaseOf(view, moved, list[i]); },
-      .time_cap = view.spec.trial_time_cap,
-      .num_cores = campaign::CoresOfTrial(view.spec)};
+  const campaign::CaseRuns runs{.spec = view.spec, .count = list.size(), .at = [&](std::size_t i) {
+                                  return FolderCaseOf(view, moved, list[i]);
+                                }};
   if (!campaign::RunCases(runs, parts)) {
     throw base::Interrupted("interrupted; the same command goes on with \"" + moved.test.name +
                             "\"");

@@ -30,7 +30,6 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"
@@ -81,10 +80,9 @@ class Predictor {
       console.Line(case_.name + ": " + PlanText(view_, case_, stages_, CoreTime()));
     }
     const bool done =
-        campaign::RunCases({.count = runs.size(),
+        campaign::RunCases({.spec = view_.spec,
+                            .count = runs.size(),
                             .at = [&](std::size_t run) { return FolderCaseOf(runs, run); },
-                            .time_cap = view_.spec.trial_time_cap,
-                            .num_cores = campaign::CoresOfTrial(view_.spec),
                             .has_ended =
                                 [&](std::size_t run) {
                                   Collect(run, runs);

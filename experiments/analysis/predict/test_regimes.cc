@@ -5,7 +5,6 @@
 #include "base/text/name.h"
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/regimes.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/run_cases.h"
 
 namespace talus::analysis {
@@ -49,10 +48,9 @@ std::optional<std::vector<FlowRegime>> TestRegimes(const campaign::JointView& vi
         {.folder = FolderOf(rig_case, own, predictions, *parts.engine), .rig_case = rig_case});
     names.push_back(experiment.name);
   }
-  if (!campaign::RunCases({.count = runs.size(),
-                           .at = [&](std::size_t test) { return runs[test]; },
-                           .time_cap = view.spec.trial_time_cap,
-                           .num_cores = campaign::CoresOfTrial(view.spec)},
+  if (!campaign::RunCases({.spec = view.spec,
+                           .count = runs.size(),
+                           .at = [&](std::size_t test) { return runs[test]; }},
                           parts)) {
     return std::nullopt;
   }

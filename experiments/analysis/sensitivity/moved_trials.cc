@@ -9,7 +9,6 @@
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/core_time.h"
-#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
@@ -124,10 +123,9 @@ void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& se
           {.folder = FolderOf(setting, set, e, i), .rig_case = MovedCase(setting, set, e, i)});
     }
   });
-  const campaign::CaseRuns runs{.count = cases.size(),
-                                .at = [&](std::size_t i) { return cases[i]; },
-                                .time_cap = setting.view.spec.trial_time_cap,
-                                .num_cores = campaign::CoresOfTrial(setting.view.spec)};
+  const campaign::CaseRuns runs{.spec = setting.view.spec,
+                                .count = cases.size(),
+                                .at = [&](std::size_t i) { return cases[i]; }};
   if (campaign::RunCases(runs, setting.parts)) return;
   throw base::Interrupted("interrupted; the same command goes on with the sensitivity");
 }

@@ -87,7 +87,8 @@ class RunCasesTest : public GoingOnTest {
     const StubQueue& asked = *queue;
     const CampaignParts parts{.runner = std::move(queue),
                               .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
-    RunCases({.count = 1, .at = [&](std::size_t) { return run; }, .time_cap = 60}, parts);
+    const CampaignSpec spec;
+    RunCases({.spec = spec, .count = 1, .at = [&](std::size_t) { return run; }}, parts);
     return asked.log();
   }
 };

@@ -56,14 +56,14 @@ class FailedCasesTest : public CampaignFixture {
     const CampaignParts parts{.runner = MakeDrawnRunner(view.spec, folder_),
                               .engine = std::make_unique<FakeEngine>(FakeEngineOptions{
                                   .fail_at_low = true, .no_command = !has_program})};
-    return RunCases({.count = frictions.size(),
+    return RunCases({.spec = view.spec,
+                     .count = frictions.size(),
                      .at =
                          [&](std::size_t i) {
                            rigs::Case rig_case = TypicalCase(view.spec, 0, 1);
                            rig_case.powder.material.sliding_friction = frictions[i];
                            return FolderCase{.folder = Place(i), .rig_case = rig_case};
-                         },
-                     .time_cap = 60},
+                         }},
                     parts);
   }
   fs::path Place(std::size_t i) const { return folder_ / "beside" / std::to_string(i + 1); }
@@ -99,7 +99,7 @@ TEST_F(FailedCasesTest, WhatWasInterruptedHasNotFailed) {
       rig_case.powder.material.sliding_friction = 0.5 + 0.1 * static_cast<double>(i);
       return FolderCase{.folder = Place(i), .rig_case = rig_case};
     };
-    RunCases({.count = 2, .at = at, .time_cap = 60}, parts);
+    RunCases({.spec = view.spec, .count = 2, .at = at}, parts);
     EXPECT_EQ(HasFailed(1), status == 1);
   }
 }
@@ -122,7 +122,7 @@ TEST_F(FailedCasesTest, TheTimeOfEveryAttemptIsCounted) {
                                     runners::JobEnd::kPreempted, runners::JobEnd::kExit}) {
     const CampaignParts parts{.runner = std::make_unique<EndsBy>(1, end),
                               .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
-    RunCases({.count = 1, .at = [&](std::size_t) { return run; }, .time_cap = 60}, parts);
+    RunCases({.spec = view.spec, .count = 1, .at = [&](std::size_t) { return run; }}, parts);
   }
   EXPECT_FALSE(OutcomeOf(run, engine).has_ended);  // where all fail no marks are kept
   EXPECT_DOUBLE_EQ(OutcomeOf(run, engine).core_time, 4 * 3);
