@@ -95,6 +95,18 @@ Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
   return sorted.row(at).transpose();
 }
 
+// The columns' ranges afterwards over those before, each at most 1, those of nuisances left out.
+double VolumeLeft(const Eigen::VectorXd& after, const Eigen::VectorXd& before,
+                  const std::vector<Eigen::Index>& nuisances) {
+  constexpr double kNoWidth = 1e-6;
+  double volume = 1;
+  for (Eigen::Index k = 0; k < before.size(); ++k) {
+    if (std::ranges::find(nuisances, k) != nuisances.end()) continue;
+    volume *= std::min(1.0, after[k] / std::max(before[k], kNoWidth));
+  }
+  return volume;
+}
+
 }  // namespace
 
 double HalfWidth90(const Eigen::VectorXd& values) {
@@ -120,12 +132,14 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   const auto count = static_cast<double>(truths.size());
   Eigen::MatrixXd widths(static_cast<Eigen::Index>(truths.size()), draws.cols());
   if (has_goal) learning.goal_half_width = 0;
+  learning.volume = 0;
   for (Eigen::Index t = 0; t < widths.rows(); ++t) {
     const Truth& truth = truths[static_cast<std::size_t>(t)];
     Eigen::RowVectorXd seen = truth.shows;
     for (double& value : seen) value += random.Normal();
     const Eigen::VectorXd weights = Weights(z, seen, truth.is);
     widths.row(t) = CredibleWidths90(Resampled(draws, weights), nuisances).transpose();
+    learning.volume += VolumeLeft(widths.row(t), learning.width, nuisances) / count;
     if (!has_goal) continue;
     learning.goal_half_width += HalfWidth90(Resampled(goal, weights).col(0)) / count;
   }

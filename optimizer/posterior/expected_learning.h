@@ -25,6 +25,10 @@ struct ExpectedLearning {
   Eigen::VectorXd width;
   Eigen::VectorXd narrow{};
   Eigen::VectorXd wide{};
+  // What is left of the volume of the ranges of what is asked for, over what there is: the mean
+  // over the same sets, in [0, 1]. A test that tells all of some sets and nothing of others leaves
+  // more than the product of the mean ranges.
+  double volume = 1;
   double goal_half_width = base::kNotKnown;  // of the goal's 90 %, expected
   // Two draws that it separates most, rows.
   Eigen::Index first = 0;

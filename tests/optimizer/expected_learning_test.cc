@@ -137,6 +137,37 @@ TEST(ExpectedLearning, BetterMeasurementsTeachMore) {
   EXPECT_LT(learn(0.05).width.sum(), learn(0.1).width.sum());
 }
 
+// Half of the sets are told to a fiftieth of what is searched, the others not at all: of these all
+// is left, half of the mean. The product of the mean ranges would be a quarter.
+TEST(ExpectedLearning, ATestThatIsSilentForHalfOfTheSetsLeavesHalfOfTheVolume) {
+  const Eigen::MatrixXd draws = Even(4000);
+  Eigen::MatrixXd mean = draws;
+  for (auto row : mean.rowwise()) {
+    if (row[0] < 0.5) row.setConstant(-1);
+  }
+  const ExpectedLearning learning =
+      Learn(draws, {.mean = mean, .variance = Eigen::VectorXd::Constant(2, 4e-4)}, 1);
+  // Of the silent half, what is left is that half of the first parameter: 64 truths, so ± 3 sd of
+  // a share are 0.19 of 0.5, times a half.
+  EXPECT_NEAR(learning.volume, 0.25, 0.1);
+  EXPECT_LT(learning.width[0] * learning.width[1], 0.7 * learning.volume);
+}
+
+// What tells a nuisance alone has the more bits, and leaves all of what is asked for.
+TEST(ExpectedLearning, WhatIsLearntOfANuisanceLeavesTheVolume) {
+  const Eigen::MatrixXd draws = Even(4000);
+  const auto learn = [&](Eigen::Index column, double sd) {
+    return Learn(draws,
+                 {.mean = draws.col(column), .variance = Eigen::VectorXd::Constant(1, sd * sd)}, 1,
+                 {.nuisances = {1}});
+  };
+  const ExpectedLearning nuisance = learn(1, 0.005);
+  const ExpectedLearning asked = learn(0, 0.05);
+  EXPECT_GT(nuisance.bits, asked.bits + 2);
+  EXPECT_GT(nuisance.volume, 0.9);
+  EXPECT_LT(asked.volume, 0.3);
+}
+
 TEST(ExpectedLearning, NamesTheTwoDrawsThatItTellsApartBest) {
   Eigen::MatrixXd draws = Even(100);
   draws(17, 0) = -1;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "base/json/json_text.h"
@@ -33,14 +33,9 @@ std::string NamesOf(const DesignTable& table, const DesignChoice& choice) {
 }
 
 // What the choices are in order of, ten characters wide.
-std::string MeritText(const DesignTable& table, const DesignChoice& choice) {
-  char text[16];
-  if (table.supposed.empty()) {
-    std::snprintf(text, sizeof text, "%5.2f bits", choice.learning.bits);
-  } else {
-    std::snprintf(text, sizeof text, "%8s %%", base::InPercent(choice.remaining).c_str());
-  }
-  return text;
+std::string MeritText(const DesignChoice& choice) {
+  const std::string percent = base::InPercent(choice.remaining);
+  return std::string(8 - std::min<std::size_t>(8, percent.size()), ' ') + percent + " %";
 }
 
 // What is supposed, as far as it is given.
@@ -59,21 +54,22 @@ Supposed SupposedOf(const DesignTable& table) {
   return supposed;
 }
 
-// "searched: …", and what is supposed.
+// "searched: …", what is supposed, and what the order is.
 std::string GroundText(const DesignTable& table) {
   std::string text = "searched: " + WidthsText(table.tests, table.tests.width) + "\n";
-  if (table.supposed.empty()) return text;
   const Supposed supposed = SupposedOf(table);
-  return text + "supposed: " + campaign::SetText(supposed.parameters, supposed.values) +
-         "; in order of the share of the volume searched that they are expected to leave\n";
+  if (!supposed.values.empty()) {
+    text += "supposed: " + campaign::SetText(supposed.parameters, supposed.values) + "\n";
+  }
+  return text + "in order of the share of the volume searched that they are expected to leave\n";
 }
 
 std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice>& choices) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kShown, choices.size()); ++i) {
-    text += MeritText(table, choices[i]) + "  " + NamesOf(table, choices[i]) +
+    text += MeritText(choices[i]) + "  " + NamesOf(table, choices[i]) +
             "\n            expected to leave " + SpreadText(table.tests, choices[i].learning) +
-            "\n";
+            "; " + ShortNumber(choices[i].learning.bits, 3) + " bits\n";
   }
   return text;
 }

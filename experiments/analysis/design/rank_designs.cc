@@ -1,6 +1,7 @@
 #include "experiments/analysis/design/rank_designs.h"
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "base/error.h"
@@ -134,8 +135,8 @@ DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestC
       choice.learning = Together(ground, table.tests.candidates, choice.tests);
       choice.remaining = RemainingOf(table.tests, choice.learning);
     }
-    std::ranges::stable_sort(choices, {}, [&](const DesignChoice& c) {
-      return table.supposed.empty() ? -c.learning.bits : c.remaining;
+    std::ranges::stable_sort(choices, {}, [](const DesignChoice& c) {
+      return std::tuple(c.remaining, -c.learning.bits);
     });
   }
   return table;

@@ -3,11 +3,12 @@
 namespace talus::analysis {
 namespace {
 
-// What is left of the variance `before` once it is `after` is what an independent measurement with
-// the difference of their precisions would leave.
-Eigen::VectorXd OfTheDifference(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+// What is left of the variance once it is `after` is what an independent measurement with the
+// difference of the precisions would leave. The posterior counts both by the weight.
+Eigen::VectorXd OfTheDifference(const Known& known, const Eigen::VectorXd& after) {
   constexpr double kLeast = 1e-12;
-  return (after.cwiseInverse() - before.cwiseInverse()).cwiseMax(kLeast).cwiseInverse();
+  const Eigen::VectorXd more = known.weight * (after.cwiseInverse() - known.Now().cwiseInverse());
+  return more.cwiseMax(kLeast).cwiseInverse();
 }
 
 }  // namespace
@@ -18,7 +19,8 @@ std::vector<Known> KnownExperiments(const Ground& ground, const optimizer::Poste
   for (std::size_t i = 0; i < answered.size(); ++i) {
     Known known{.experiment = answered[i],
                 .at = posterior.models()[i].Predict(ground.draws),
-                .surrogate = {}};
+                .surrogate = {},
+                .weight = posterior.models()[i].weight()};
     known.surrogate = SurrogateVariance(known.at);
     experiments.push_back(std::move(known));
   }
@@ -37,8 +39,8 @@ double SurrogateShare(const std::vector<Known>& experiments) {
 
 optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
                                           const Eigen::VectorXd& less) {
-  const Eigen::VectorXd now = known.Now();
-  return ground.Learn({.mean = known.at.mean, .variance = OfTheDifference(now, now - less)});
+  return ground.Learn(
+      {.mean = known.at.mean, .variance = OfTheDifference(known, known.Now() - less)});
 }
 
 optimizer::ExpectedLearning LearnWithoutSurrogate(const Ground& ground,
@@ -50,9 +52,8 @@ optimizer::ExpectedLearning LearnWithoutSurrogate(const Ground& ground,
   Eigen::Index first = 0;
   for (const Known& known : experiments) {
     const Eigen::Index count = known.surrogate.size();
-    const Eigen::VectorXd now = known.Now();
     mean.middleCols(first, count) = known.at.mean;
-    variance.segment(first, count) = OfTheDifference(now, now - known.surrogate);
+    variance.segment(first, count) = OfTheDifference(known, known.Now() - known.surrogate);
     first += count;
   }
   return ground.Learn({.mean = mean, .variance = variance});

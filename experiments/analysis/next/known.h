@@ -12,6 +12,7 @@ struct Known {
   int experiment = 0;
   optimizer::OutputPredictions at;
   Eigen::VectorXd surrogate;  // variance, mean over the draws
+  double weight = 1;          // by which the posterior counts its misfits, > 0
 
   Eigen::VectorXd Now() const { return surrogate + at.measured + at.model; }
 };

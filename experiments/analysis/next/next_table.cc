@@ -7,12 +7,7 @@ namespace talus::analysis {
 
 double RemainingOf(const NextTable& table, const optimizer::ExpectedLearning& learning) {
   if (table.goal) return std::min(1.0, learning.goal_half_width / table.goal->half_width);
-  double volume = 1;
-  for (Eigen::Index k = 0; k < table.width.size(); ++k) {
-    if (std::ranges::find(table.nuisances, k) != table.nuisances.end()) continue;
-    volume *= std::min(1.0, learning.width[k] / std::max(table.width[k], 1e-6));
-  }
-  return volume;
+  return learning.volume;
 }
 
 void SetRemaining(NextTable& table) {

@@ -9,13 +9,6 @@
 namespace talus::analysis {
 namespace {
 
-// The 99.9 % quantile of χ² with so many degrees of freedom, by Wilson and Hilferty.
-double MostByChance(double degrees) {
-  constexpr double kQuantile = 3.0902;  // of a standard normal
-  const double share = 2 / (9 * degrees);
-  return degrees * std::pow(1 - share + kQuantile * std::sqrt(share), 3);
-}
-
 // Draws in, or takes back, the shift of outputs that are judged together.
 void JudgeTogether(const Eigen::VectorXd& by_chance, Eigen::Ref<Eigen::VectorXd> shift) {
   double chi_square = 0;
@@ -25,8 +18,7 @@ void JudgeTogether(const Eigen::VectorXd& by_chance, Eigen::Ref<Eigen::VectorXd>
     chi_square += shift[k] * shift[k] / by_chance[k];
     ++degrees;
   }
-  const bool is_chance = degrees == 0 || chi_square <= MostByChance(degrees);
-  shift *= is_chance ? 0 : std::sqrt(1 - degrees / chi_square);
+  shift *= IsByChance(chi_square, degrees) ? 0 : std::sqrt(1 - degrees / chi_square);
 }
 
 }  // namespace

@@ -35,6 +35,11 @@ MoveShifts ShiftsBetween(const SensitivitySetting& setting, const optimizer::Pos
       return found;
     }
     found.shifts.push_back(ShiftOf(moved, base, model.NoiseAt(setting.scale_factor)));
+    if (!found.shifts.back().is_known.any()) {
+      found.why_not = "none of its simulations of \"" + NameOf(setting.view, e) +
+                      "\" shows anything of what was measured there";
+      return found;
+    }
   }
   return found;
 }

@@ -8,6 +8,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/follow.h"
+#include "experiments/analysis/sensitivity/shift.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/folder/campaign_folder.h"
@@ -25,7 +26,9 @@ bool AnswerShift::IsWithin() const {
 
 bool FixedMove::IsByChance() const {
   return !outputs.empty() && std::ranges::none_of(outputs, [](const OutputShift& output) {
-    return std::abs(output.shift) > output.noise;
+    const double squares = std::pow(output.shift / output.noise, 2);
+    return squares > 0 &&
+           !talus::analysis::IsByChance(output.num_modes * squares, output.num_modes);
   });
 }
 
@@ -247,7 +250,8 @@ class Study {
           {.experiment = NameOf(view_, e),
            .output = "image",
            .shift = std::sqrt((shift.mean.head(num_modes).array().square() / noise).mean()),
-           .noise = std::sqrt((shift.variance.head(num_modes).array() / noise).mean())});
+           .noise = std::sqrt((shift.variance.head(num_modes).array() / noise).mean()),
+           .num_modes = static_cast<int>(num_modes)});
     }
     for (std::size_t s = 0; s < scalars.size(); ++s) {
       const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);

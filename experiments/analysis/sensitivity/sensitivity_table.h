@@ -18,11 +18,12 @@ struct OutputShift {
   double shift = 0;      // [sd of one simulation at the target scale factor]; of an image the root
                          // mean square over its modes, of a number with its sign
   double noise = 0;      // sd that chance gives the shift; of an image its root mean square
+  int num_modes = 1;     // that these are root mean squares over
   // Both NaN where no simulation, with the move or without, has the number.
 
   static constexpr base::FieldKey kKeys[] = {{"shift", "shift_in_noise_sd"},
                                              {"noise", "by_chance"}};
-  TALUS_FIELDS(experiment, output, shift, noise);
+  TALUS_FIELDS(experiment, output, shift, noise, num_modes);
 };
 
 // What the answer would be with the moved value, SI.
@@ -63,8 +64,9 @@ struct FixedMove {
   static constexpr base::FieldKey kKeys[] = {{"implausibility", "implausibility_sd"}};
   TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, moves_still, why_not,
                why_not_followed, outputs, answer, implausibility);
-  // Whether every output shifts by no more than simulations scatter. Where the region is wide, the
-  // answer may then jump within it, and the move is not to blame.
+  // Whether no output shifts by more than chance makes once in a thousand times (IsByChance in
+  // shift.h). Where the region is wide, the answer may then jump within it, and the move is not to
+  // blame.
   bool IsByChance() const;
   bool Exceeds(const AnswerShift& shift) const;  // … of this move, and the move's own doing
   bool Exceeds() const;                          // any parameter

@@ -31,4 +31,11 @@ Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
   return shift;
 }
 
+bool IsByChance(double squares, double degrees) {
+  constexpr double kQuantile = 3.0902;  // of a standard normal
+  if (degrees == 0) return true;
+  const double share = 2 / (9 * degrees);
+  return squares <= degrees * std::pow(1 - share + kQuantile * std::sqrt(share), 3);
+}
+
 }  // namespace talus::analysis

@@ -122,7 +122,8 @@ TEST_F(DesignTest, APowderThatIsSupposedLeavesRangesOfItsOwn) {
   const campaign::JointView view = ViewOf(design, scratch_.path());
   EXPECT_THAT(
       DesignText(partly, view, design.candidates),
-      ContainsRegex("supposed: rolling_friction 0\\.275;.*\none test\n +[0-9.]+ %  heap\n"));
+      ContainsRegex(
+          "supposed: rolling_friction 0\\.275\nin order [^\n]*\none test\n +[0-9.]+ %  heap\n"));
   EXPECT_EQ(nlohmann::json::parse(DesignJson(partly)).at("supposed").dump(),
             R"({"rolling_friction":0.275})");
   EXPECT_FALSE(nlohmann::json::parse(DesignJson(any)).contains("supposed"));

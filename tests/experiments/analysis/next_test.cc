@@ -46,8 +46,9 @@ TEST_F(NextTest, RanksWhatTrialsAlreadyTellAndAsksForTheOthers) {
   EXPECT_FALSE(fs::exists(folder_ / "next")) << "looking must not write";
 }
 
-NextCandidate Leaving(const std::string& name, const Eigen::Vector2d& width, double bits) {
-  return {.name = name, .learning = optimizer::ExpectedLearning{.bits = bits, .width = width}};
+NextCandidate Leaving(const std::string& name, double volume, double bits) {
+  return {.name = name,
+          .learning = optimizer::ExpectedLearning{.bits = bits, .width = {}, .volume = volume}};
 }
 
 std::vector<std::string> NamesOf(const NextTable& table) {
@@ -61,19 +62,14 @@ TEST(NextRanking, WhatLeavesTheSmallestRangesComesFirstAndWhatIsNotKnownLast) {
   NextTable table{.parameters = {},
                   .width = Eigen::Vector2d(0.4, 0.2),
                   .candidates = {{.name = "unknown"},
-                                 Leaving("half", {0.4, 0.1}, 3),
-                                 Leaving("nothing", {0.44, 0.2}, 0.1),
-                                 Leaving("also half", {0.2, 0.2}, 4),
-                                 Leaving("quarter", {0.2, 0.1}, 2)}};
+                                 Leaving("half", 0.5, 3),
+                                 Leaving("nothing", 1, 0.1),
+                                 Leaving("also half", 0.5, 4),
+                                 Leaving("quarter", 0.25, 2)}};
   Rank(table);
   EXPECT_EQ(NamesOf(table),
             (std::vector<std::string>{"quarter", "also half", "half", "nothing", "unknown"}));
   EXPECT_DOUBLE_EQ(table.candidates[0].remaining, 0.25);
-  EXPECT_EQ(table.candidates[3].remaining, 1);  // wider by chance is no loss
-  table.nuisances = {1};                        // nobody asks how well the second is known
-  Rank(table);
-  EXPECT_EQ(table.candidates[0].name, "also half");
-  EXPECT_DOUBLE_EQ(table.candidates[0].remaining, 0.5);
 }
 
 // A page of a campaign in whose folder the table stands, and the terminal's text of the table.
