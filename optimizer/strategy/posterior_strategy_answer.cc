@@ -27,8 +27,9 @@ std::vector<double> PosteriorStrategy::UnlearntScaleFactors() const {
   constexpr int kEnough = 2;
   std::vector<double> unlearnt;
   for (int level = 0; level < levels_.size(); ++level) {
-    for (const Told& told : told_) {
-      const std::vector<int>& levels = told.by_code.front().level;
+    for (std::size_t e = 0; e < told_.size(); ++e) {
+      if (targets_[e].weight == 0) continue;  // held out: the answer does not rest on it
+      const std::vector<int>& levels = told_[e].by_code.front().level;
       const bool few = std::count(levels.begin(), levels.end(), level) < kEnough;
       const bool is_target = level == levels_.finest() && !levels_.is_extrapolated();
       if (few && (is_target || level == 0)) unlearnt.push_back(levels_.factor(level));
@@ -40,8 +41,10 @@ std::vector<double> PosteriorStrategy::UnlearntScaleFactors() const {
 
 int PosteriorStrategy::FewestAtFinest() const {
   std::ptrdiff_t fewest = std::numeric_limits<int>::max();
-  for (const Told& told : told_) {
-    fewest = std::min(fewest, std::ranges::count(told.by_code.front().level, levels_.finest()));
+  for (std::size_t e = 0; e < told_.size(); ++e) {
+    if (targets_[e].weight == 0) continue;
+    const std::vector<int>& levels = told_[e].by_code.front().level;
+    fewest = std::min(fewest, std::ranges::count(levels, levels_.finest()));
   }
   return static_cast<int>(fewest);
 }
@@ -126,8 +129,8 @@ Answer PosteriorStrategy::RecommendModelled() {
     return std::ranges::count(domain_.nuisances, bound.parameter) > 0;
   });
   const std::vector<ExperimentModel>& models = Model().models();
-  const auto image = std::find_if(models.begin(), models.end(),
-                                  [](const ExperimentModel& m) { return m.has_image(); });
+  const auto image = std::ranges::find_if(
+      models, [](const ExperimentModel& m) { return m.has_image() && m.weight() > 0; });
   if (image != models.end()) {
     const Moments at = image->Objective(answer.point.transpose());
     answer.predicted_value = at.mean[0];

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/not_known.h"
+#include "optimizer/outputs/levels.h"
 
 namespace talus::analysis {
 namespace {
@@ -94,7 +95,9 @@ double ScatterOfAnswer(const Evidence& evidence, const Criterion& info) {
   if (!evidence.answer || info.key != evidence.objective) return base::kNotKnown;
   const auto& experiments = evidence.answer->experiments;
   if (evidence.experiment >= experiments.size()) return base::kNotKnown;
-  return experiments[evidence.experiment].noise_sd.value_or(base::kNotKnown);
+  // It is stated for the target.
+  return experiments[evidence.experiment].noise_sd.value_or(base::kNotKnown) *
+         optimizer::NoiseRatio(evidence.scale_factor, evidence.answer->conditions.scale_factor);
 }
 
 // The share of the cube whose nearest set ties: trials crowd where they are good, so their own

@@ -79,8 +79,8 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
   }
   const ResultStanding* standing = StandingOf(answer, record.name);
   if (standing != nullptr && std::isfinite(standing->predicted)) {
-    row.simulated =
-        ShortText(standing->predicted) + " " + answer.objective_unit + " predicted, not confirmed";
+    row.simulated = ShortText(standing->predicted) + campaign::DistanceUnit(answer) +
+                    " predicted, not confirmed";
   }
   row.judgement = "not confirmed by a fresh seed";
   if (confirmed == nullptr && ConfirmedOf(answer, record.name) != nullptr) {

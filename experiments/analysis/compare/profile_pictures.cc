@@ -41,14 +41,12 @@ std::vector<Column> Columns(const Evidence& evidence, const std::vector<ShownTri
 }  // namespace
 
 const TrialEvidence* ConfirmingTrial(const Evidence& evidence) {
-  const TrialEvidence* first = nullptr;
   for (const TrialEvidence& trial : evidence.trials) {
     if (trial.kind != journal::TrialKind::kConfirm || trial.state != journal::TrialStatus::kOk)
       continue;
-    if (first == nullptr) first = &trial;
-    if (evidence.answer && campaign::IsRecommended(*evidence.answer, trial.values)) return &trial;
+    if (!evidence.answer || campaign::IsRecommended(*evidence.answer, trial.values)) return &trial;
   }
-  return first;
+  return nullptr;
 }
 
 std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,

@@ -113,6 +113,8 @@ std::string MeasuredText(const Prediction& prediction, const PredictedNumber& nu
   return text + (m.nearest_is_inside
                      ? "; yet " + SetText(prediction, m.nearest_draw, parameters) +
                            " gives it: `talus add-experiment` would narrow the answer by it\n"
+                 : std::isnan(number.run_sd)
+                     ? "; one run of a set does not tell whether the set gives it\n"
                  : prediction.by == PredictedBy::kPosterior
                      ? "; no draw gives it: this process is not predicted by any set that fits\n"
                      : "; this set does not give it\n");

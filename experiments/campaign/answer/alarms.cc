@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/not_known.h"
+#include "base/student_factor.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
@@ -26,10 +28,10 @@ bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
 }
 
 // The set without the scatter of its simulations, which is what a model of mean heaps predicts; of
-// another objective than the SAD its mean.
+// another objective than the SAD that of the mean heap.
 double WithoutScatter(const Answer& answer, const ResultConfirmed& confirmed) {
   if (!MinimisesSad(answer) || !confirmed.profile_sad_mm2 || confirmed.num_trials < 2) {
-    return confirmed.mean;
+    return MinimisesSad(answer) ? confirmed.mean : ComparableOf(confirmed);
   }
   return std::min(confirmed.mean, SadWithoutScatter(confirmed));
 }
@@ -97,11 +99,11 @@ double OffIn(const Answer& answer, const ResultCandidate& candidate, const Measu
 // Another set that was simulated again and comes clearly nearer.
 const ResultCandidate* NearerSet(const Answer& answer) {
   constexpr double kClearly = 0.7;  // of the recommended set's distance
-  const auto& all = answer.confirmed;
-  if (all.empty()) return nullptr;
+  const ResultCandidate* recommended = ConfirmedSet(answer);
+  if (recommended == nullptr) return nullptr;
   const ResultCandidate* nearest = nullptr;
-  double least = kClearly * FarthestOff(answer, all.front());
-  for (const ResultCandidate& candidate : all) {
+  double least = kClearly * FarthestOff(answer, *recommended);
+  for (const ResultCandidate& candidate : answer.confirmed) {
     const double miss = FarthestOff(answer, candidate);
     if (!(miss < least)) continue;
     nearest = &candidate;
@@ -132,7 +134,7 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
     std::vector<std::string> names;
     for (const ResultParameter& p : answer.parameters) names.push_back(p.name);
     const bool nearer_here =
-        OffIn(answer, *nearer, fit) < OffIn(answer, answer.confirmed.front(), fit);
+        OffIn(answer, *nearer, fit) < OffIn(answer, *ConfirmedSet(answer), fit);
     return BracketedSet(names, nearer->values) + ", simulated again, too, " +
            (!Misses(answer, *nearer) ? "fits"
             : nearer_here            ? "misses less"
@@ -215,6 +217,23 @@ std::vector<Alarm> PredictionAlarms(const Answer& answer) {
   return alarms;
 }
 
+// Trials of the search at this scale factor that have the objective.
+int NumberOfSearch(const std::vector<journal::TrialRecord>& trials, const Reference& reference,
+                   double scale_factor) {
+  return static_cast<int>(std::ranges::count_if(trials, [&](const journal::TrialRecord& trial) {
+    return trial.IsOfSearch() && trial.scale_factor == scale_factor &&
+           trial.status == journal::TrialStatus::kOk && reference.Value(trial);
+  }));
+}
+
+// The best of many trials owes something to luck: by how many standard deviations the best of so
+// many lies farther off than its own mean once in fifty times.
+double MostOf(int num_trials) {
+  constexpr double kSeldom = 0.02;
+  return base::StudentFactor(std::numeric_limits<double>::infinity(),
+                             1 - 2 * kSeldom / std::max(1, num_trials));
+}
+
 std::vector<Alarm> SearchAlarms(const Answer& answer,
                                 const std::vector<journal::TrialRecord>& trials,
                                 const std::vector<Reference>& references) {
@@ -232,8 +251,8 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
   const journal::TrialRecord* best = BestOfSearch(trials, reference, 0, factor);
   if (best == nullptr || !std::isfinite(shown)) return {};
   const double excess = shown - *reference.Value(*best);
-  // The best of many trials owes something to luck: its own scatter counts.
-  if (!(excess > kSurprise * std::hypot(error, NoiseOfConfirming(answer, experiment))) ||
+  const double luck = MostOf(NumberOfSearch(trials, reference, factor));
+  if (!(excess > luck * std::hypot(error, NoiseOfConfirming(answer, experiment))) ||
       !(excess > kLeastShare * shown)) {
     return {};
   }

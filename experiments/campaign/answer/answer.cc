@@ -25,9 +25,15 @@ const ResultStanding* StandingOf(const Answer& answer, std::string_view experime
   return found == all.end() ? nullptr : &*found;
 }
 
+const ResultCandidate* ConfirmedSet(const Answer& answer) {
+  const auto& all = answer.confirmed;
+  return all.empty() || all.front().role != CandidateRole::kRecommended ? nullptr : &all.front();
+}
+
 const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experiment) {
-  if (answer.confirmed.empty()) return nullptr;
-  const auto& all = answer.confirmed.front().experiments;
+  const ResultCandidate* set = ConfirmedSet(answer);
+  if (set == nullptr) return nullptr;
+  const auto& all = set->experiments;
   const auto found = std::ranges::find(all, experiment, &ResultConfirmed::name);
   return found == all.end() || found->num_trials == 0 ? nullptr : &*found;
 }
@@ -55,11 +61,6 @@ bool IsRecommended(const Answer& answer, const std::vector<double>& values) {
 
 bool MinimisesSad(const Answer& answer) {
   return answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
-}
-
-double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed) {
-  return MinimisesSad(answer) && confirmed.profile_sad_mm2 ? *confirmed.profile_sad_mm2
-                                                           : confirmed.mean;
 }
 
 bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds) {

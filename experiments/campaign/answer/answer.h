@@ -64,9 +64,9 @@ struct ResultExperiment {
   int num_heaps = 1;                    // that its image is the mean of
   std::optional<double> powder_area{};  // of its image [mm²]
   std::vector<ResultNumber> numbers{};
-  std::optional<double> noise_floor{};    // SAD from run to run [mm²]; none for a map or numbers
-  std::optional<double> noise_sd{};       // of the objective of one simulation, by the model
-  std::optional<double> replicates_sd{};  // the same, from the replicates before the search
+  std::optional<double> noise_floor{};  // SAD from run to run [mm²]; none for a map or numbers
+  std::optional<double> noise_sd{};     // of one simulation's objective at the target, by the model
+  std::optional<double> replicates_sd{};  // of the replicates before the search, at their own
 
   static constexpr base::FieldKey kKeys[] = {{"powder_area", "powder_area_mm2"},
                                              {"noise_floor", "noise_floor_mm2"}};
@@ -140,8 +140,8 @@ struct Answer {
   std::vector<std::vector<double>> representative{};
   std::vector<ResultParameter> parameters{};
   std::vector<ResultExperiment> experiments{};
-  std::vector<ResultCandidate> confirmed{};        // the recommended set first
-  std::vector<ResultRemains> remains{};            // maps at the recommended set
+  std::vector<ResultCandidate> confirmed{};  // the recommended set first, if any of it succeeded
+  std::vector<ResultRemains> remains{};      // maps at the recommended set
   std::vector<std::vector<double>> correlation{};  // between the parameters
   std::string model{};
   std::optional<ResultPosterior> posterior{};  // none while there are too few trials
@@ -164,6 +164,7 @@ Answer ParseAnswer(const std::string& text);
 // How the recommended set stands with an experiment by the model, and as confirmed; null where that
 // is not known.
 const ResultStanding* StandingOf(const Answer& answer, std::string_view experiment);
+const ResultCandidate* ConfirmedSet(const Answer& answer);
 const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experiment);
 
 // A set's point in the unit cube of the parameters, and that of the recommended one.
@@ -176,10 +177,6 @@ bool IsRecommended(const Answer& answer, const std::vector<double>& values);
 
 // Whether its objective is the SAD.
 bool MinimisesSad(const Answer& answer);
-
-// What the confirming trials of an experiment say that a model of mean heaps predicts: the SAD of
-// their mean profile, of another objective the mean. NaN without either.
-double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed);
 
 bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds);
 

@@ -57,13 +57,6 @@ std::string ParameterLines(const Answer& result) {
 }
 
 // The unit says where an objective is the distance from the experiment's angle, not an angle.
-std::string DistanceUnit(const Answer& answer) {
-  const bool is_distance = std::ranges::any_of(journal::kObjectives, [&](const auto& info) {
-    return info.is_angle && info.ValueKey() == answer.objective;
-  });
-  return " " + answer.objective_unit + (is_distance ? " off" : "");
-}
-
 // "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images;
 // of an angle "predicted 1.2 ° off ± 0.4, confirmed 1.5 ° off".
 std::string ObjectiveText(const Answer& answer, const ResultExperiment& experiment,
@@ -77,7 +70,7 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   }
   if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
   text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
-          base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
+          base::ShortNumber(ComparableOf(*confirmed)) + unit;
   if (MinimisesSad(answer) && confirmed->over_floor) {
     text += " (" + base::PlainNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
             base::PlainNumber(*experiment.noise_floor, 2) + ")";
@@ -169,17 +162,20 @@ std::string ConfirmedLines(const Answer& answer) {
   std::string text;
   for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
     const ResultCandidate& c = answer.confirmed[i];
+    const bool is_answer = c.role == CandidateRole::kRecommended;  // whose values stand above
+    const auto num_seeds =
+        std::ranges::max_element(c.experiments, {}, &ResultConfirmed::num_trials)->num_trials;
     text += Padded("  " + NameOfCandidate(answer, i), 20) + "with " +
-            base::Counted(c.experiments.front().num_trials, "fresh seed") + " at scale factor " +
+            base::Counted(num_seeds, "fresh seed") + " at scale factor " +
             base::ShortNumber(c.scale_factor);
-    if (i > 0) text += ": " + ValuesText(answer, c.values);
+    if (!is_answer) text += ": " + ValuesText(answer, c.values);
     for (const ResultConfirmed& e : c.experiments) {
-      const double value = ComparableOf(answer, e);
-      if (i > 0 && std::isfinite(value)) {
+      const double value = ComparableOf(e);
+      if (!is_answer && std::isfinite(value)) {
         text += "; " + e.name + " " + base::ShortNumber(value) + DistanceUnit(answer);
       }
     }
-    if (i > 0 && Misses(answer, c)) text += "; misses " + MissesText(answer, c);
+    if (!is_answer && Misses(answer, c)) text += "; misses " + MissesText(answer, c);
     text += "\n";
   }
   return text;

@@ -73,6 +73,7 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     journal::TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
     confirmed.profile_sad_mm2 = mean.Metric(journal::InfoOf(journal::Objective::kSad).metric);
+    confirmed.profile_objective = reference.Value(mean);
   }
   if (profiles.size() > 1) {
     const double pixel = reference.frame()->pixel_size * 1e3;  // [mm]

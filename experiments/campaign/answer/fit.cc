@@ -7,6 +7,7 @@
 
 #include "base/not_known.h"
 #include "base/student_factor.h"
+#include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/outputs/levels.h"
 
@@ -104,8 +105,9 @@ bool IsImplausible(const Answer& answer, const std::string& experiment) {
 }  // namespace
 
 const ResultConfirmed* ConfirmedAtTarget(const Answer& answer, std::string_view experiment) {
-  if (answer.confirmed.empty()) return nullptr;
-  const bool is_there = answer.confirmed.front().scale_factor == answer.conditions.scale_factor;
+  const ResultCandidate* set = ConfirmedSet(answer);
+  if (set == nullptr) return nullptr;
+  const bool is_there = set->scale_factor == answer.conditions.scale_factor;
   return is_there ? ConfirmedOf(answer, experiment) : nullptr;
 }
 
@@ -121,6 +123,17 @@ double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
   return std::max(
       OrZero(confirmed.standard_error),
       NoiseOfConfirming(answer, experiment) / std::sqrt(std::max(1, confirmed.num_trials)));
+}
+
+std::string DistanceUnit(const Answer& answer) {
+  const bool is_distance = std::ranges::any_of(journal::kObjectives, [&](const auto& info) {
+    return info.is_angle && info.ValueKey() == answer.objective;
+  });
+  return " " + answer.objective_unit + (is_distance ? " off" : "");
+}
+
+double ComparableOf(const ResultConfirmed& confirmed) {
+  return confirmed.profile_objective.value_or(confirmed.mean);
 }
 
 double SadWithoutScatter(const ResultConfirmed& confirmed) {

@@ -84,6 +84,13 @@ std::string SpokenOf(const MeasurementFit& fit);
 double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
                const ResultConfirmed& confirmed);
 
+// What the confirming trials of an experiment say that a model of mean heaps predicts: the
+// objective of their mean profile; of one without an objective there the mean. NaN without either.
+double ComparableOf(const ResultConfirmed& confirmed);
+
+// " mm²" after an objective's value, " ° off" after an angle's, which is a distance.
+std::string DistanceUnit(const Answer& answer);
+
 // By how much the objective of one confirming trial scatters, by the model; 0 where it is not
 // known. Grains f times as large scatter by f^1.5, a heap having f⁻³ as many.
 double NoiseOfConfirming(const Answer& answer, const ResultExperiment& experiment);

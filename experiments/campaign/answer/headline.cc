@@ -37,7 +37,7 @@ bool IsOpen(const Answer& answer, std::size_t i) {
 }
 
 std::string ShownUnitAfter(const ResultParameter& p) {
-  const std::string unit = rigs::ShownUnitOf(p.unit).text;
+  const std::string unit = rigs::PrettyUnit(p.unit);
   return unit.empty() ? "" : " " + unit;
 }
 
@@ -121,7 +121,7 @@ std::string SeparateText(const Told& told) {
   const std::vector<ResultBranch>& branches = told.answer.posterior->branches;
   std::string text = "They allow " + std::to_string(branches.size()) + " separate answers";
   for (std::size_t b = 0; b < branches.size(); ++b) {
-    text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the posterior round " +
+    text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the region round " +
             ToldSetText(told, branches[b].values);
   }
   return text;
@@ -187,7 +187,7 @@ std::string LeftOpen(const Answer& answer) {
 }
 
 std::string FitText(const Answer& answer) {
-  if (answer.confirmed.empty()) {
+  if (ConfirmedSet(answer) == nullptr) {
     return "By the model sets fit every measurement; no simulation has confirmed one.";
   }
   const std::string open = LeftOpen(answer);

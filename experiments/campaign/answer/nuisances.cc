@@ -34,7 +34,7 @@ bool Matters(const ResultParameter& nuisance) {
 std::string NuisanceText(const ResultParameter& p, const std::string& name) {
   if (!std::isfinite(p.credible_low)) return name + ": no range without a model";
   const bool determined = p.Width() < kDetermined * PriorWidth(p);
-  const std::string shown = rigs::ShownUnitOf(p.unit).text;
+  const std::string shown = rigs::PrettyUnit(p.unit);
   const std::string unit = shown.empty() ? "" : " " + shown;
   std::string text = name + ": " + (determined ? "determined, " : "not determined, ") +
                      base::ShortNumber(p.credible_low, 3) + " … " +

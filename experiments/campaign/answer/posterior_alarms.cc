@@ -25,7 +25,8 @@ bool HasFewSimulations(const Answer& answer) {
          p.fewest_at_finest < kEnoughAtFinest && !is_done;
 }
 
-// The experiment with the fewest simulations at the smallest scale factor.
+// The experiment with the fewest simulations at the smallest scale factor. One that is held out has
+// no standing.
 std::string MostCautious(const ResultPosterior& posterior) {
   return std::ranges::max_element(posterior.experiments, {}, &ResultStanding::caution)->name;
 }

@@ -39,8 +39,10 @@ struct ResultConfirmed {
   // The mean's standard error and its degrees of freedom, as ResultScalar has them.
   std::optional<double> sad_standard_error{};
   int degrees = 0;
-  std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
-  std::optional<double> over_floor{};       // … over the experiment's noise floor
+  std::optional<double> profile_sad_mm2{};    // SAD of their mean profile
+  std::optional<double> profile_objective{};  // objective of their mean profile
+  std::optional<double>
+      over_floor{};  // SAD of their mean profile over the experiment's noise floor
   std::optional<double> spread_mm2{};  // mean SAD of each one's profile from that of the others
   std::vector<ResultScalar> scalars{};
 
@@ -49,9 +51,10 @@ struct ResultConfirmed {
                                              {"sad_standard_error", "sad_standard_error_mm2"},
                                              {"degrees", "sad_degrees_of_freedom"},
                                              {"profile_sad_mm2", "mean_profile_sad_mm2"},
+                                             {"profile_objective", "mean_profile_objective"},
                                              {"over_floor", "mean_profile_sad_over_noise_floor"}};
   TALUS_FIELDS(name, num_trials, mean, standard_error, sad_mm2, sad_standard_error, degrees,
-               profile_sad_mm2, over_floor, spread_mm2, scalars);
+               profile_sad_mm2, profile_objective, over_floor, spread_mm2, scalars);
 };
 
 // A set that was simulated again with fresh seeds.

@@ -89,6 +89,39 @@ TEST(Alarms, ScatterOfTheMeanProfileIsNoAlarm) {
   EXPECT_THAT(PredictionAlarms(answer), IsEmpty());
 }
 
+// Single silhouettes are far from a mean image by RMSE, whatever the set: that of the mean heap is
+// what was predicted. Every perfect set was called worse than predicted.
+TEST(Alarms, OfAnotherObjectiveTheMeanHeapsIsComparedToo) {
+  Answer answer = ConfirmedAt(12.8);
+  answer.objective = "rmse";
+  EXPECT_THAT(PredictionAlarms(answer), SizeIs(1));
+  HeapOf(answer).profile_objective = 4.1;
+  EXPECT_THAT(PredictionAlarms(answer), IsEmpty());
+  EXPECT_EQ(ComparableOf(HeapOf(answer)), 4.1);
+}
+
+// All fresh seeds of the recommended set have failed, those of an end have not: what the end gives
+// is not the answer's.
+TEST(Alarms, WhatAnotherSetGivesConfirmsNothing) {
+  Answer answer = ConfirmedAt(9);
+  answer.confirmed[0].role = CandidateRole::kEnd;
+  EXPECT_EQ(ConfirmedSet(answer), nullptr);
+  EXPECT_EQ(ConfirmedOf(answer, "heap"), nullptr);
+  EXPECT_EQ(ConfirmedAtTarget(answer, "heap"), nullptr);
+  EXPECT_THAT(PredictionAlarms(answer), IsEmpty());
+}
+
+// The best of 40 that are as good as the recommended set lies that far below it once in fifty
+// times; the best of one would not.
+TEST(Alarms, TheBestOfManyTrialsOwesMoreToLuck) {
+  const Answer answer = ConfirmedAt(4.2);
+  const std::vector<Reference> one{EmptyReference()};
+  std::vector<journal::TrialRecord> trials{TrialWith(1, 3.2)};  // 2.8 of √(0.2² + 0.3²)
+  EXPECT_THAT(SearchAlarms(answer, trials, one), SizeIs(1));
+  for (int id = 2; id <= 40; ++id) trials.push_back(TrialWith(id, 4.2));
+  EXPECT_THAT(SearchAlarms(answer, trials, one), IsEmpty());
+}
+
 TEST(Alarms, ATrialThatCameOutBetterIsNamed) {
   const Answer answer = ConfirmedAt(4.2);
   const std::vector<Reference> one{EmptyReference()};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/campaign/answer/alarms.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "tests/experiments/campaign/confirmed_answer.h"
 
 namespace talus::campaign {
@@ -37,6 +38,22 @@ TEST(Headline, SaysWhatIsNotDeterminedBeforeWhatIs) {
   EXPECT_THAT(sentences[1], HasSubstr("do not determine energy: nearly every searched value fits"));
   EXPECT_EQ(sentences[2], "They determine friction 0.1 (90 %: 0.05 to 0.15).");
   EXPECT_THAT(sentences[3], HasSubstr("a region, not a point"));
+}
+
+// "0.00145 mg": a million times too little.
+TEST(Headline, ASearchedMassIsInTheUnitThatItSays) {
+  Answer answer = ResultWithRanges(0.15, 9e-5);
+  answer.parameters[0] = {.name = "mass",
+                          .unit = "kg",
+                          .value = 1.5e-3,
+                          .searched_low = 1e-3,
+                          .searched_high = 3e-3,
+                          .credible_low = 1.45e-3,
+                          .credible_high = 1.55e-3};
+  answer.confirmed.resize(1);
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("mass 0.0015 kg (90 %: 0.00145 to 0.00155 kg)"));
+  answer.parameters[0].nuisance.emplace();
+  EXPECT_THAT(NuisanceText(answer.parameters[0], "mass"), HasSubstr("0.00145 … 0.00155 kg,"));
 }
 
 // Measured twice, an angle may be anything by chance: "Sets are found that fit every measurement"

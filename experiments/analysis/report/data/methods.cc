@@ -32,7 +32,7 @@ std::string Confirmed(const Evidence& evidence) {
     words.push_back(row.confirmed + " (" + row.what + " of \"" + row.experiment + "\"" +
                     (row.held_out ? ", held out" : "") + ")");
   }
-  if (words.empty() || evidence.answer->confirmed.empty()) return "";
+  if (words.empty()) return "";
   return " Simulated again with fresh seeds, it gives " + base::Listed(words) + ".";
 }
 

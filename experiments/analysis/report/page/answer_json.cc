@@ -122,7 +122,8 @@ PageValue PredictedNumberJson(const PredictedNumber& n) {
     json["measured"] = {{"value", shown(n.measured->value)},
                         {"error", shown(n.measured->standard_error)},
                         {"inside", n.measured->is_inside},
-                        {"another_inside", n.measured->nearest_is_inside}};
+                        {"another_inside", n.measured->nearest_is_inside},
+                        {"another_is_told", !std::isnan(n.run_sd)}};
   }
   return json;
 }

@@ -8,6 +8,7 @@
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 
@@ -54,7 +55,10 @@ std::string WithPowers(const std::string& text) {
 
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const Answer& answer) {
   constexpr double kClear = 0.5;
-  return campaign::TiedPair(answer.correlation, kClear);
+  auto pair = campaign::TiedPair(campaign::AskedPart(answer).correlation, kClear);
+  if (!pair) return pair;
+  const std::vector<std::size_t> asked = campaign::AskedParameters(answer);
+  return std::pair(asked[pair->first], asked[pair->second]);
 }
 
 std::string TradeOffWords(const Evidence& evidence) {

@@ -43,8 +43,18 @@ Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, do
   return draws(DrawsNear(draws, column, value), others);
 }
 
+// Columns of the nuisances where that of parameter k is left out.
+std::vector<Eigen::Index> NuisancesAmongOthers(const campaign::Answer& answer, std::size_t k) {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t j = 0; j < answer.parameters.size(); ++j) {
+    if (j == k || !answer.parameters[j].nuisance) continue;
+    columns.push_back(static_cast<Eigen::Index>(j < k ? j : j - 1));
+  }
+  return columns;
+}
+
 // Another test tells this parameter: where do the others lie, given it? As the ranges that the page
-// shows, these hold 90 % of the draws all together.
+// shows, those of what is asked for hold 90 % of the draws all together.
 void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>& steps) {
   const ParameterInfo& parameter = evidence.parameters[k];
   const campaign::ResultParameter& measured = evidence.answer->parameters[k];
@@ -59,7 +69,8 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
                 .leaves = {},
                 // Nobody asks for a nuisance, only for what the others are, given it.
                 .remaining = measured.nuisance ? 1 : kMeasured / width};
-  const std::vector<optimizer::Range> ranges = optimizer::CredibleRanges(given);
+  const std::vector<optimizer::Range> ranges =
+      optimizer::AskedRanges(given, NuisancesAmongOthers(*evidence.answer, k));
   for (std::size_t j = 0, left = 0; j < evidence.parameters.size(); ++j) {
     if (j == k) continue;
     const ParameterInfo& other = evidence.parameters[j];

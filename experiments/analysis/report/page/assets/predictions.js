@@ -8,7 +8,7 @@ const shareText = (n) => n.parameters_share === null ? "" : "; " + percent(n.par
 
 const measuredThere = (n) => n.measured === null ? "–" : formatUnit(n.measured.value, n.unit) + " ± " +
   format(n.measured.error, 2) + ": " + (n.low === null ? "one run does not tell" : n.measured.inside ? "inside" : n.measured.another_inside
-    ? "outside, yet a draw gives it" : "outside, and no draw gives it");
+    ? "outside, yet a draw gives it" : n.measured.another_is_told ? "outside, and no draw gives it" : "outside; one run of a draw does not tell whether it gives it");
 
 // By what a number is told, with what either misses of draws that were left out.
 const toldBy = (n) => n.surrogate === null ? "draws" : (n.surrogate.used ? "surrogate, scale factor " +
