@@ -7,8 +7,8 @@
 // Strategies and their callers free each other's vectors, so both must have Eigen allocate alike.
 static_assert(EIGEN_MALLOC_ALREADY_ALIGNED,
               "compile what includes this without -mavx and -march=native, or with "
-              "-DEIGEN_DONT_VECTORIZE; with the address sanitizer, with "
-              "-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
+              "-DEIGEN_DONT_VECTORIZE -DEIGEN_MALLOC_ALREADY_ALIGNED=1; with the address "
+              "sanitizer, with -DEIGEN_MALLOC_ALREADY_ALIGNED=1");
 
 namespace talus::optimizer {
 

@@ -49,6 +49,10 @@ std::string TextOf(const StopShortfall& s, const std::vector<std::string>& names
   switch (s.lack) {
     case StopLack::kFirstTrials:
       return "not every test has its first trials at every scale factor yet";
+    case StopLack::kDefined:
+      return "only " + Count(s.num_defined) + " of " + Count(s.num_told) + " simulations " +
+             (s.num_defined == 1 ? "has" : "have") + " " + s.number +
+             ", too few for a model: search ranges where the test has it";
     case StopLack::kGain:
       return "a better set may still be found";
     case StopLack::kShare:

@@ -40,6 +40,7 @@ std::string TextOf(const StopReason& reason);
 
 enum class StopLack {
   kFirstTrials,  // the first trials at each scale factor
+  kDefined,      // trials that have the number `number`: `num_defined` of `num_told` do
   kGain,         // a better set may still be found
   kShare,  // more would narrow a range by too large a share, or the model misses its own trials
 };
@@ -53,6 +54,9 @@ struct StopShortfall {
   double temper = 1;                    // of the posterior, >= 1 (posterior/joint_misfit.h)
   double most_temper = 1;               // the search stops at this or less
   int num_more = 0;                     // evaluations that `narrowing` is of
+  std::string number{};                 // of kDefined, as are the next two
+  int num_defined = 0;
+  int num_told = 0;
 };
 
 // Without a full stop. `names` of the parameters asked for.

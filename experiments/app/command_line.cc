@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -22,9 +23,24 @@ const CLI::App* FindVerb(const CLI::App& app, std::string_view name) {
   return nullptr;
 }
 
+// Arguments before options: an option that takes several words would take the arguments, too.
+class ArgumentsFirst : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string usage = CLI::Formatter::make_usage(app, name);
+    const std::string options = " [" + get_label("OPTIONS") + "]";
+    const auto at = usage.find(options);
+    if (at == std::string::npos || !app->get_subcommands({}).empty()) return usage;
+    usage.erase(at, options.size());
+    usage.insert(usage.find_last_not_of('\n') + 1, options);
+    return usage;
+  }
+};
+
 }  // namespace
 
 void DescribeCommandLine(CLI::App& app) {
+  app.formatter(std::make_shared<ArgumentsFirst>());
   app.set_version_flag("--version", "talus " + base::Version());
   app.require_subcommand(1);
   AddInitCommand(app);

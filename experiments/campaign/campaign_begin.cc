@@ -17,7 +17,7 @@
 namespace talus::campaign {
 namespace {
 
-// Of what a queue was given for this folder. `jobs`: those that count; none: all.
+// Jobs that a queue was given for this folder: `jobs` where they are given, else all.
 void RequireNoneQueued(const runners::SlurmOptions& options, const std::filesystem::path& folder,
                        const std::vector<runners::Job>* jobs) {
   const std::filesystem::path records = folder / "slurm";

@@ -43,6 +43,10 @@ double ImageFunctional::Expected(const Coefficients& at) const {
          code_->ExpectedSad(MeanImage(at.mean), modes_.basis.cwiseAbs2() * at.variance);
 }
 
+double ImageFunctional::Outlined(const Coefficients& at) const {
+  return objective_.metric ? Value(MeanImage(at.mean)) : Expected(at);
+}
+
 Eigen::VectorXd ImageFunctional::Draws(const Coefficients& at) const {
   const Eigen::VectorXd sd = at.variance.cwiseSqrt();
   Eigen::VectorXd values(num_draws());

@@ -35,6 +35,9 @@ class ImageFunctional {
   double Value(const Eigen::VectorXd& vector) const;  // of a code
   // Expectation of the mean image's value.
   double Expected(const Coefficients& at) const;
+  // The same, of a metric the value of the expected image: a value takes milliseconds, and an
+  // expectation dozens of them.
+  double Outlined(const Coefficients& at) const;
   // The mean image's value for fixed draws of the coefficients, the same at every point.
   Eigen::VectorXd Draws(const Coefficients& at) const;
   double SdOfDraws(const Coefficients& at) const;

@@ -241,11 +241,11 @@ Moments ExperimentModel::Objective(const Eigen::MatrixXd& points) const {
   return moments;
 }
 
-Eigen::VectorXd ExperimentModel::ExpectedObjective(const Eigen::MatrixXd& points) const {
+Eigen::VectorXd ExperimentModel::OutlinedObjective(const Eigen::MatrixXd& points) const {
   const ModeMoments modes = outputs_.PredictModes(points);
   Eigen::VectorXd expected(points.rows());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    expected[i] = objective_->Expected({modes.mean.row(i), modes.variance.row(i)});
+    expected[i] = objective_->Outlined({modes.mean.row(i), modes.variance.row(i)});
   }
   return expected;
 }

@@ -133,7 +133,8 @@ class ExperimentModel {
   bool has_image() const { return setup_.code != nullptr; }
   // The objective of the mean image at the target; wants an image.
   Moments Objective(const Eigen::MatrixXd& points) const;
-  Eigen::VectorXd ExpectedObjective(const Eigen::MatrixXd& points) const;  // its mean alone
+  // Its mean alone, as ImageFunctional::Outlined has it: for thousands of points.
+  Eigen::VectorXd OutlinedObjective(const Eigen::MatrixXd& points) const;
   double ObjectiveNoise(const Eigen::VectorXd& x) const;  // sd of one heap's at the target
 
   // Without the implausibility, which wants the posterior's temper.

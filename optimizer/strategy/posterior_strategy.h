@@ -103,6 +103,8 @@ class PosteriorStrategy : public Strategy {
   Proposal Next(std::span<const Proposal> asked);
   // Whether the stopping rule has something to judge.
   bool HasDesign();
+  // A number that too few evaluations have for a model; nothing where no number is to blame.
+  std::optional<StopShortfall> UndefinedNumber() const;
   ExperimentModel::Setup SetupOf(std::size_t experiment) const;
   std::ptrdiff_t NumEarlier(const Told& told) const;
   std::vector<SurrogateAhead> SureSurrogates();

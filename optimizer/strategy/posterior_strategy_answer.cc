@@ -137,7 +137,7 @@ Answer PosteriorStrategy::RecommendModelled() {
     answer.predicted_sd = at.sd[0];
     answer.noise_sd = image->ObjectiveNoise(answer.point);
     const SobolIndices sobol = EstimateSobolIndices(
-        [&](const Eigen::MatrixXd& points) { return image->ExpectedObjective(points); },
+        [&](const Eigen::MatrixXd& points) { return image->OutlinedObjective(points); },
         {.dimension = domain_.num_parameters, .num_base = 512, .seed = options_.seed});
     answer.sobol_first = sobol.first;
     answer.sobol_total = sobol.total;

@@ -1,5 +1,6 @@
 // When a posterior's search ends by itself.
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "optimizer/outputs/output_model.h"
@@ -92,9 +93,30 @@ std::optional<StopReason> PosteriorStrategy::WhyStop() {
   return StopByOutlook(OutlookNow(), options_.stop_share);
 }
 
+std::optional<StopShortfall> PosteriorStrategy::UndefinedNumber() const {
+  if (CanModel() || FromDesign({})) return std::nullopt;
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    const auto is_here = [&](const Observation& o) { return o.experiment == static_cast<int>(e); };
+    for (std::size_t s = 0; s < targets_[e].scalars.size(); ++s) {
+      const auto has_it = [&](const Observation& o) {
+        return is_here(o) && s < o.scalars.size() && std::isfinite(o.scalars[s]);
+      };
+      const auto num_defined = static_cast<int>(std::ranges::count_if(observations_, has_it));
+      if (num_defined >= kFewest) continue;
+      return StopShortfall{
+          .lack = StopLack::kDefined,
+          .number = targets_[e].scalars[s].name,
+          .num_defined = num_defined,
+          .num_told = static_cast<int>(std::ranges::count_if(observations_, is_here))};
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<StopShortfall> PosteriorStrategy::Shortfall() {
   if (options_.stop_share == 0) return std::nullopt;
-  if (!HasDesign()) return StopShortfall{.lack = StopLack::kFirstTrials};
+  if (!HasDesign())
+    return UndefinedNumber().value_or(StopShortfall{.lack = StopLack::kFirstTrials});
   constexpr Eigen::Index kFew = 50;
   const Eigen::MatrixXd draws = Sample().Draws(kOutlookDraws, options_.seed);
   const Eigen::MatrixXd few = draws(Eigen::seqN(0, kFew, kOutlookDraws / kFew), Eigen::all);

@@ -45,6 +45,23 @@ TEST(DefinedNumbers, TheAnswerKeepsToWhereTheyExist) {
   EXPECT_GT(level.tail(2).minCoeff(), 0.9);
 }
 
+// One of 24 has the angle: first trials at every scale factor, which it has, were said to lack.
+TEST(DefinedNumbers, ThatTooFewTrialsHaveANumberIsWhatASearchLacks) {
+  const ExperimentTarget drum{.name = "drum", .scalars = {{"angle", 40, 0.5}}};
+  PosteriorStrategy strategy({.scale_factors = {1}, .seed = 1}, {.num_parameters = 2}, {drum});
+  strategy.Tell({.point = Eigen::Vector2d(0.5, 0.5), .failed = true, .scalars = {kNone}});
+  EXPECT_EQ(strategy.Shortfall().value().lack, StopLack::kFirstTrials);
+  for (int i = 1; i < 24; ++i) {
+    const Eigen::VectorXd point = strategy.AskAt(1, {}).front().point;
+    strategy.Tell({.point = point, .failed = i > 1, .scalars = {i > 1 ? kNone : 40}});
+  }
+  const StopShortfall lacks = strategy.Shortfall().value();
+  EXPECT_EQ(lacks.lack, StopLack::kDefined);
+  EXPECT_EQ(TextOf(lacks, {}),
+            "only 1 of 24 simulations has angle, too few for a model: search "
+            "ranges where the test has it");
+}
+
 // Too few for a model: by value, which numbers do not have, the first evaluation would be the best.
 class Unmodelled : public testing::Test {
  protected:

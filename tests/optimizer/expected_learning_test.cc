@@ -137,9 +137,10 @@ TEST(ExpectedLearning, BetterMeasurementsTeachMore) {
   EXPECT_LT(learn(0.05).width.sum(), learn(0.1).width.sum());
 }
 
-// Half of the sets are told to a fiftieth of what is searched, the others not at all: of these all
-// is left, half of the mean. The product of the mean ranges would be a quarter.
-TEST(ExpectedLearning, ATestThatIsSilentForHalfOfTheSetsLeavesHalfOfTheVolume) {
+// Half of the sets are told to a fiftieth of what is searched, of the others only that they are
+// those: half of the volume is left of these, a quarter in the mean. The product of the mean ranges
+// would be an eighth.
+TEST(ExpectedLearning, ATestThatIsSilentForHalfOfTheSetsLeavesAQuarterOfTheVolume) {
   const Eigen::MatrixXd draws = Even(4000);
   Eigen::MatrixXd mean = draws;
   for (auto row : mean.rowwise()) {
@@ -147,8 +148,8 @@ TEST(ExpectedLearning, ATestThatIsSilentForHalfOfTheSetsLeavesHalfOfTheVolume) {
   }
   const ExpectedLearning learning =
       Learn(draws, {.mean = mean, .variance = Eigen::VectorXd::Constant(2, 4e-4)}, 1);
-  // Of the silent half, what is left is that half of the first parameter: 64 truths, so ± 3 sd of
-  // a share are 0.19 of 0.5, times a half.
+  // Three standard deviations of a share of a half of 64 truths are 0.19, times the half that is
+  // left.
   EXPECT_NEAR(learning.volume, 0.25, 0.1);
   EXPECT_LT(learning.width[0] * learning.width[1], 0.7 * learning.volume);
 }

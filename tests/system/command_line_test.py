@@ -51,6 +51,8 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(helped.returncode, 0, verb)
             self.assertEqual(helped.stdout, itself.stdout)
             self.assertIn("Usage: talus " + verb, helped.stdout)
+            # Options that take several words would take what stands behind them.
+            self.assertNotRegex(helped.stdout, r"\[OPTIONS\] \S")
 
     def test_help_without_a_verb_lists_all(self):
         helped = talus("help")

@@ -130,7 +130,7 @@ class ReportOfKnownData(ReportPage):
         self.open_report("three", 60, 3, "finished")
         number = ("{title: '%s', unit: '°', usual: %s, mean: 30, low: 20, high: 40, parameters_sd: 3, run_sd: 1, "
                   "parameters_share: .9, silent: '', surrogate: {used: true, scale_factor: 1.5, left_out: .2, draws: .4}, measured: %s}")
-        inside = "{value: 33, error: .5, inside: %s, another_inside: %s}"
+        inside = "{value: 33, error: .5, inside: %s, another_inside: %s, another_is_told: true}"
         made = ("{name: 'p', test: 'drum', by: 'posterior', scale_factor: 1.5, draws: 2, runs: 4, ended: %s, outdated: %s, notes: [], "
                 f"numbers: [{number % ('A', 'false', 'null')}, {number % ('B', 'true', inside % ('true', 'true'))}, "
                 f"{number % ('C', 'false', inside % ('false', 'true'))}, {number % ('D', 'false', inside % ('false', 'false'))}],"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/not_known.h"
 #include "experiments/campaign/answer/hold_out.h"
 #include "optimizer/posterior/sample_statistics.h"
 
@@ -17,7 +18,7 @@ double Tension(double chi_squared, double freedom) {
   // A nuisance counts by share. Of less than that the cube root's normal is none any more: a pull
   // of 0 would score 3 of 0.02 degrees.
   constexpr double kFewestDegrees = 0.5;
-  if (freedom < kFewestDegrees) return 0;
+  if (freedom < kFewestDegrees) return base::kNotKnown;
   const double variance = 2 / (9 * freedom);
   const double root = std::cbrt(std::max(0.0, chi_squared) / freedom);
   return std::max(0.0, (root - (1 - variance)) / std::sqrt(variance));
@@ -55,7 +56,7 @@ Agreement AgreementOf(const JointView& view) {
     agreement.odd = agreement.alone.back().experiments.front();
   }
   agreement.tension = Tension(sum, freedom);
-  if (agreement.tension == 0) agreement.odd.clear();
+  if (!(agreement.tension > 0)) agreement.odd.clear();
   return agreement;
 }
 

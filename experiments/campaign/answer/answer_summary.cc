@@ -192,7 +192,7 @@ std::string PosteriorLines(const Answer& result) {
   if (p.branches.size() > 1) {
     for (const ResultBranch& branch : p.branches) text += BranchLine(result, branch);
   }
-  if (p.experiments.size() > 1) {
+  if (p.experiments.size() > 1 && std::isfinite(p.tension)) {
     text += "  tension           " + base::PlainNumber(p.tension, 2) +
             " standard deviations between the experiments\n";
   }

@@ -17,6 +17,7 @@
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "imaging/photos/sad_from_others.h"
 #include "imaging/spheres/projection.h"
 #include "optimizer/outputs/levels.h"
@@ -222,7 +223,7 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
     }
     if (i < answer.sobol_first.size()) parameter.sobol_first = answer.sobol_first[i];
     if (i < answer.sobol_total.size()) parameter.sobol_total = answer.sobol_total[i];
-    if (answer.posterior) parameter.prior = PriorOf(*answer.posterior, p, i, *spec.parameters);
+    if (answer.posterior) parameter.prior = PriorOf(*answer.posterior, space, i, *spec.parameters);
     parameter.nuisance = NuisanceOf(answer, planner, i);
     result.parameters.push_back(parameter);
   }
@@ -292,7 +293,8 @@ JointView ViewOf(const Planner& planner, const CampaignEvidence& evidence) {
   return view;
 }
 
-ResultUnsettled UnsettledBy(const optimizer::StopShortfall& lacks, const Answer& answer) {
+ResultUnsettled UnsettledBy(optimizer::StopShortfall lacks, const Answer& answer) {
+  lacks.number = rigs::SpokenName(lacks.number);
   std::vector<std::string> names;
   for (const std::size_t k : AskedParameters(answer)) names.push_back(answer.parameters[k].name);
   ResultUnsettled unsettled{

@@ -47,7 +47,7 @@ std::vector<ConsideredParameter> KnownOf(const JointView& view, const optimizer:
     const optimizer::Parameter& p = view.space.parameters[static_cast<std::size_t>(free[i])];
     known.push_back({.name = p.name,
                      .unit = UnitOf(p.name),
-                     .prior = PriorOf(*answer.posterior, p, i, *view.spec.parameters),
+                     .prior = PriorOf(*answer.posterior, view.space, i, *view.spec.parameters),
                      .is_nuisance = p.is_nuisance,
                      .low = p.ToNative(answer.credible[i].low),
                      .high = p.ToNative(answer.credible[i].high)});

@@ -69,13 +69,15 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
 }
 
 std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
-                                   const optimizer::Parameter& parameter, std::size_t i,
+                                   const optimizer::ParameterSpace& space, std::size_t i,
                                    const ParameterRanges& ranges) {
+  const auto place = static_cast<std::size_t>(space.Free()[i]);
+  const optimizer::Parameter& parameter = space.parameters[place];
   const std::map<std::string, std::string> texts = PriorTexts(ranges);
   const auto text = texts.find(parameter.name);
   if (text == texts.end() || summary.prior_draws.rows() == 0) return std::nullopt;
   const auto k = static_cast<Eigen::Index>(i);
-  const optimizer::Range range = optimizer::CredibleRanges(summary.prior_draws.col(k)).front();
+  const optimizer::Range range = optimizer::AskedRanges(summary.prior_draws, space.Nuisances())[i];
   return ResultPrior{.text = text->second,
                      .low = parameter.ToNative(range.low),
                      .high = parameter.ToNative(range.high),

@@ -35,9 +35,10 @@ FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimize
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   const optimizer::ParameterSpace& space);
 
-// The prior of the parameter, which is coordinate i; nothing where its spec gives it none.
+// The prior of the i-th free parameter, its range as the answer's are: those of what is asked for
+// hold 90 % all together. Nothing where its spec gives it none.
 std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
-                                   const optimizer::Parameter& parameter, std::size_t i,
+                                   const optimizer::ParameterSpace& space, std::size_t i,
                                    const ParameterRanges& ranges);
 
 // Its draws, one a line, SI with the units in the head.

@@ -45,7 +45,7 @@ std::string NuisanceText(const ResultParameter& p, const std::string& name) {
 }
 
 bool IsKnownByPrior(const ResultParameter& p) {
-  constexpr double kSameWidth = 0.9;  // of the prior's; joint ranges are wider than single ones
+  constexpr double kSameWidth = 0.9;  // of the prior's
   constexpr double kSameMean = 0.5;   // of the prior's standard deviation
   if (!p.prior) return false;
   return p.Width() >= kSameWidth * PriorWidth(p) && std::abs(p.prior->offset) <= kSameMean;

@@ -10,8 +10,10 @@ namespace talus::campaign {
 
 // What was known of a parameter beforehand, SI.
 struct ResultPrior {
-  std::string text{};            // as the spec gives it: "0.35 ± 0.05"
-  double low = base::kNotKnown;  // 90 % of it, inside the searched range
+  std::string text{};  // as the spec gives it: "0.35 ± 0.05"
+  // Its 90 % range inside the searched one, of the same kind as the answer's: those of all
+  // parameters that are asked for hold 90 % together.
+  double low = base::kNotKnown;
   double high = base::kNotKnown;
   double offset = 0;  // of the posterior's mean from its, in its standard deviations
 

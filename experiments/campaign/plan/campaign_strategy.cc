@@ -86,7 +86,7 @@ optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Re
       .cost = CostAtUsualSpeed(trial),
       .is_paid_for = trial.IsPaidFor(),
       .failed = trial.status != journal::TrialStatus::kOk || !reference.IsMeasured(trial),
-      .value = value.value_or(0),
+      .value = value.value_or(reference.has_image() ? kWorstAngle : 0),
       .field = std::move(field)};
   for (const journal::ScalarRecord& scalar : reference.scalars()) {
     observation.scalars.push_back(trial.Metric(scalar.name).value_or(base::kNotKnown));

@@ -168,6 +168,14 @@ std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const Campaig
          base::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out";
 }
 
+// Trials of the search; 0 where no number ends it. A set that was begun gets all its replicates.
+int MostSearched(const CampaignSpec& spec) {
+  if (spec.budget.simulations == 0) return 0;
+  const int sets =
+      (spec.budget.simulations - spec.noise.replicates + spec.replicates - 1) / spec.replicates;
+  return spec.noise.replicates + sets * spec.replicates;
+}
+
 // Where the simulations end with those at coarser scale factors.
 std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
   const auto finer = static_cast<int>(spec.coarse_graining.Levels().size()) - 1;
@@ -176,21 +184,14 @@ std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
       optimizer::PosteriorDesignSize(SpaceOf(spec).MakeDomain(), spec.strategy.num_initial);
   const int least =
       static_cast<int>(ExperimentsOf(spec).size()) * (design + optimizer::kFewestFinerSets * finer);
-  if (spec.budget.simulations >= least) return std::nullopt;
+  if (MostSearched(spec) >= least * spec.replicates + spec.noise.replicates) return std::nullopt;
   return base::Counted(spec.budget.simulations, "simulation") + " end before " +
          base::Counted(optimizer::kFewestFinerSets, "set") +
          " of each experiment are simulated at scale factor " +
          base::ShortNumber(spec.coarse_graining.Finest()) +
-         ", and the answer rests on coarser grains: give it " + std::to_string(least) +
+         ", and the answer rests on coarser grains: give it " +
+         std::to_string(least * spec.replicates + spec.noise.replicates) +
          " at least, or leave that scale factor out";
-}
-
-// Trials of the search; 0 where no number ends it. A set that was begun gets all its replicates.
-int MostSearched(const CampaignSpec& spec) {
-  if (spec.budget.simulations == 0) return 0;
-  const int sets =
-      (spec.budget.simulations - spec.noise.replicates + spec.replicates - 1) / spec.replicates;
-  return spec.noise.replicates + sets * spec.replicates;
 }
 
 }  // namespace

@@ -65,9 +65,11 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
   *known = trial;
   turns_.Told(trial);
   if (!trial.IsOfSearch()) return;
-  const optimizer::Observation observation =
-      ObservationOf(trial, ReferenceOf(trial), std::move(field));
+  const Reference& reference = ReferenceOf(trial);
+  optimizer::Observation observation = ObservationOf(trial, reference, std::move(field));
   posterior_->Tell(observation);
+  // What minimises an objective learns nothing from a trial without it.
+  observation.failed |= !reference.Value(trial).has_value();
   if (proposer_) proposer_->Tell(observation);
   CheckThatSomeSucceed(trial);
   CheckThatNumbersAreDefined(trial.experiment);

@@ -85,7 +85,9 @@ std::vector<journal::MetricRecord> Reference::Measure(const imaging::GrayImage& 
 }
 
 bool Reference::IsMeasured(const journal::TrialRecord& trial) const {
-  if (has_image_) return Value(trial).has_value();
+  if (has_image_) {
+    return trial.Metric(journal::InfoOf(journal::Objective::kSad).metric).has_value();
+  }
   return std::any_of(scalars().begin(), scalars().end(), [&](const journal::ScalarRecord& scalar) {
     return trial.Metric(scalar.name).has_value();
   });
@@ -150,8 +152,7 @@ double Reference::ValueOfField(std::span<const float> field) const {
   const imaging::GrayImage image = ImageOf(field);
   if (info().is_angle) {
     const imaging::Measured angle = AngleOf(image);
-    constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
-    return angle.defined() ? std::abs(angle.value - angle_) : kWorst;
+    return angle.defined() ? std::abs(angle.value - angle_) : kWorstAngle;
   }
   return imaging::Rmse({.image = image, .frame = aehp_.profile.frame}, aehp_.profile.image,
                        options_.metrics.rmse_region)

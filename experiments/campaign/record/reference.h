@@ -12,6 +12,9 @@
 
 namespace talus::campaign {
 
+// By which a heap without an angle is off its experiment's [deg]: as far as can be.
+inline constexpr double kWorstAngle = 90;
+
 struct ReferenceOptions {
   imaging::MetricOptions metrics = {};
   journal::Objective objective = journal::Objective::kSad;
@@ -38,7 +41,8 @@ class Reference {
   // What is minimised, or nothing where it is not defined.
   std::optional<double> Value(const journal::TrialRecord& trial) const;
 
-  // Whether the trial says anything of this experiment.
+  // Whether the trial says anything of this experiment: has its image, whether or not that has the
+  // objective's angle, or one of its numbers.
   bool IsMeasured(const journal::TrialRecord& trial) const;
 
   const journal::ObjectiveInfo& info() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/student_factor.h"
 #include "experiments/campaign/spec/measured_numbers.h"
 
 namespace talus::campaign {
@@ -20,7 +21,8 @@ template <rigs::Observable O>
 std::optional<KnownNumber> KnownOf(const MeasuredNumbers& numbers) {
   const auto& number = numbers.Of<O>();
   if (!number) return std::nullopt;
-  return KnownNumber{.value = number->Value(), .error = number->StandardError()};
+  return KnownNumber{.value = number->Value(),
+                     .error = base::NormalError(number->StandardError(), number->Degrees())};
 }
 
 // Both numbers are above zero.

@@ -1,6 +1,7 @@
 // Numbers that an experiment has measured, beside its images or without any.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -60,7 +61,9 @@ struct MeasuredNumber {
   }
 
  private:
-  bool IsAlike() const { return kYesNo && !(base::SampleOf(*values).variance > 0); }
+  // The mean of equal numbers may differ from them in its last bit.
+  bool IsOneValue() const { return std::ranges::min(*values) == std::ranges::max(*values); }
+  bool IsAlike() const { return kYesNo && IsOneValue(); }
   void ValidateError(base::Problems& problems) const {
     problems.Require(!standard_error || (*standard_error > 0 && std::isfinite(*standard_error)),
                      "sd", standard_error.value_or(0),
@@ -79,7 +82,7 @@ struct MeasuredNumber {
     }
     problems.Require(!standard_error, "sd",
                      "stands beside values, whose scatter gives it: give one of the two");
-    problems.Require(values->empty() || StandardError() > 0, "values",
+    problems.Require(values->empty() || kYesNo || !IsOneValue(), "values",
                      "are all the same, which no error can be read from: give value and sd");
   }
 };

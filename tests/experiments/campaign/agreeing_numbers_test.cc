@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.h"
 #include "experiments/campaign/spec/plausible_stresses.h"
 #include "experiments/campaign/spec/possible_numbers.h"
 
@@ -189,6 +190,29 @@ TEST(AgreeingNumbers, AYesNTimesIsKnownByTheRootOfTheirNumber) {
   ratio.values = {1.2, 1.2};
   ratio.Validate(problems);
   EXPECT_THAT(problems.Text(), HasSubstr("are all the same"));
+}
+
+// The mean of three times 22 degrees is not 22 degrees to the last bit: it passed, as exact.
+TEST(AgreeingNumbers, EqualValuesAreAllTheSameWhateverTheirMean) {
+  for (const double value : {22 * base::kDegree, 0.7, 1.5e-3, 3e-3}) {
+    for (const std::size_t count : {2u, 3u, 5u}) {
+      ExperimentSpec e = Of(rigs::RigKind::kTappedDensity);
+      auto& ratio = e.numbers.Of<Observable::kHausnerRatio>().emplace();
+      ratio.values = std::vector<double>(count, value);
+      base::Problems problems;
+      ratio.Validate(problems);
+      EXPECT_THAT(problems.Text(), HasSubstr("are all the same")) << value << " " << count;
+    }
+  }
+}
+
+// Two readings that agree by luck have a small error, of one degree of freedom: 3.8 times as large.
+TEST(AgreeingNumbers, TheErrorOfTwoValuesIsWidenedHereToo) {
+  ExperimentSpec e = Of(rigs::RigKind::kTappedDensity);
+  e.numbers.Of<Observable::kTappedDensity>().emplace().values = {1480, 1481};
+  e.numbers.Of<Observable::kPouredDensity>().emplace().values = {1200, 1201};
+  e.numbers.Of<Observable::kHausnerRatio>().emplace().values = {1.270, 1.271};
+  EXPECT_EQ(Said(e), "");
 }
 
 }  // namespace agreeing_numbers_test

@@ -67,6 +67,18 @@ TEST(Observation, ATrialThatHasNotWhatIsMetHasFailed) {
   EXPECT_EQ(ObservationOf(trial, reference, {}).value, 3);
 }
 
+// Its image is there: the posterior is of images and numbers, whatever the objective.
+TEST(Observation, AnImageWithoutTheObjectivesAngleIsNoFailure) {
+  const Reference reference(Triangle(), {.objective = journal::Objective::kAor2});
+  journal::TrialRecord trial;
+  trial.status = journal::TrialStatus::kOk;
+  trial.unit = {0.5};
+  trial.metrics = {{.name = "sad_mm2", .value = 3, .unit = "mm2", .undefined = {}}};
+  ASSERT_FALSE(reference.Value(trial));
+  EXPECT_FALSE(ObservationOf(trial, reference, {}).failed);
+  EXPECT_EQ(ObservationOf(trial, reference, {}).value, kWorstAngle);
+}
+
 TEST(Stored, TrialsAreToldInTheOrderInWhichTheyEnded) {
   std::vector<journal::TrialRecord> trials(3);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -198,6 +198,23 @@ TEST(Estimate, WarnsOfABudgetThatEndsBeforeTheFinestTrials) {
   EXPECT_TRUE(warnings(least).empty());
 }
 
+// 60 simulations are 15 sets of four, and twelve of a design are at the coarsest: none was left.
+TEST(Estimate, WhatABudgetReachesIsCountedInSets) {
+  const auto warnings = [](int simulations) {
+    const CampaignSpec spec =
+        Read(R"("coarse_graining": {"scale_factors": [4, 3, 2]}, "replicates": 4,
+                "budget": {"simulations": )" +
+             std::to_string(simulations) + "}");
+    return EstimateWarnings(spec, EstimateCampaign(spec));
+  };
+  const auto least =
+      4 * static_cast<int>(4 * SpaceOf(Read(R"("seed": 1)")).parameters.size() + 4 + 3 * 2);
+  ASSERT_EQ(warnings(least - 4).size(), 1u);
+  EXPECT_THAT(warnings(least - 4).front(),
+              testing::HasSubstr("give it " + std::to_string(least) + " at least"));
+  EXPECT_TRUE(warnings(least).empty());
+}
+
 // Ten by threes are twelve, and a set that was begun gets all of them.
 TEST(Estimate, ReplicatesAreCounted) {
   const auto count = [](const std::string& replicates) {
