@@ -45,8 +45,14 @@ void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& ro
                        const std::vector<runners::Job>& jobs) {
   if (spec.runner.kind != RunnerKind::kLocal) return;
   RequireNoneQueued(spec.runner.slurm, root, &jobs);
-  for (const auto& entry : std::filesystem::directory_iterator(root)) {
-    if (entry.is_directory()) RequireNoneQueued(spec.runner.slurm, entry.path(), nullptr);
+  constexpr int kDeepest = 1;  // DIR/predict/NAME
+  for (auto entry = std::filesystem::recursive_directory_iterator(root);
+       entry != std::filesystem::recursive_directory_iterator(); ++entry) {
+    if (!entry->is_directory()) continue;
+    RequireNoneQueued(spec.runner.slurm, entry->path(), nullptr);
+    if (entry.depth() == kDeepest || entry->path().filename() == "trials") {
+      entry.disable_recursion_pending();
+    }
   }
 }
 

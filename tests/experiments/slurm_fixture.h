@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // is a file `hold`; squeue prints the file `queue`; scancel notes what it is to cancel.
 inline constexpr const char* kSbatch = R"(#!/bin/bash
 [ -e hold_sbatch ] && { cat hold_sbatch >&2; exit 1; }
-env | grep ^SBATCH_ >environment
+env | grep -E '^SBATCH_(JOB_NAME|TIMELIMIT|CLUSTERS|PARTITION)=' >environment
 echo "$2" >>submitted
 number=$((100 + $(wc -l <submitted)))
 echo "$number"

@@ -259,7 +259,8 @@ class Study {
       move.outputs.push_back({.experiment = NameOf(view_, e),
                               .output = scalars[s].name,
                               .shift = known * shift.mean[k] / std::sqrt(variance[k]),
-                              .noise = known * std::sqrt(shift.variance[k] / variance[k])});
+                              .noise = known * std::sqrt(shift.variance[k] / variance[k]),
+                              .num_modes = 1});
     }
   }
 

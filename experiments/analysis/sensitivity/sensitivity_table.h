@@ -18,7 +18,7 @@ struct OutputShift {
   double shift = 0;      // [sd of one simulation at the target scale factor]; of an image the root
                          // mean square over its modes, of a number with its sign
   double noise = 0;      // sd that chance gives the shift; of an image its root mean square
-  int num_modes = 1;     // that these are root mean squares over
+  int num_modes = 0;     // that these are root mean squares over, 1 of a number
   // Both NaN where no simulation, with the move or without, has the number.
 
   static constexpr base::FieldKey kKeys[] = {{"shift", "shift_in_noise_sd"},

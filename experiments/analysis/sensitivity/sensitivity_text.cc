@@ -140,7 +140,14 @@ std::optional<SensitivityTable> LoadSensitivity(const std::filesystem::path& cam
   const std::filesystem::path path = SensitivityFile(campaign);
   if (!std::filesystem::exists(path)) return std::nullopt;
   try {
-    return journal::ParseRecord<SensitivityTable>(base::ReadFile(path), path.string());
+    SensitivityTable table =
+        journal::ParseRecord<SensitivityTable>(base::ReadFile(path), path.string());
+    for (const FixedMove& move : table.moves) {
+      if (std::ranges::count(move.outputs, 0, &OutputShift::num_modes) == 0) continue;
+      throw base::ConfigError(path.string() + ": lacks num_modes of " + move.name +
+                              ", by which chance is judged");
+    }
+    return table;
   } catch (const base::ConfigError& error) {
     throw base::ConfigError(std::string(error.what()) +
                             "\nrun `talus sensitivity` again, or remove the file");

@@ -15,13 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "base/not_known.h"
 #include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::campaign {
 
 struct Agreement {
   std::vector<PartialAnswer> alone{};  // of each experiment that has enough trials
-  double tension = 0;                  // Tension of Χ²
+  double tension = base::kNotKnown;    // Tension of Χ²
   std::string odd{};  // the experiment with the largest part of Χ²; "" without tension
 };
 
@@ -29,8 +30,8 @@ struct Agreement {
 Agreement AgreementOf(const JointView& view);
 
 // Standard deviations of a normal variable as unlikely as a chi-squared one of so many degrees of
-// freedom, by Wilson and Hilferty's cube root; 0 where it is smaller than usual, and of less than
-// half a degree.
+// freedom, by Wilson and Hilferty's cube root; 0 where it is smaller than usual, not known of less
+// than half a degree.
 double Tension(double chi_squared, double freedom);
 
 // Whether the tension is an alarm. Surrogates that miss most of their own trials (`raw_coverage` of

@@ -31,7 +31,7 @@ bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
 // another objective than the SAD that of the mean heap.
 double WithoutScatter(const Answer& answer, const ResultConfirmed& confirmed) {
   if (!MinimisesSad(answer) || !confirmed.profile_sad_mm2 || confirmed.num_trials < 2) {
-    return MinimisesSad(answer) ? confirmed.mean : ComparableOf(confirmed);
+    return MinimisesSad(answer) ? confirmed.mean : ComparableOf(answer, confirmed);
   }
   return std::min(confirmed.mean, SadWithoutScatter(confirmed));
 }

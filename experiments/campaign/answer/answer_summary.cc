@@ -13,7 +13,6 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
-#include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
@@ -56,7 +55,6 @@ std::string ParameterLines(const Answer& result) {
   return text;
 }
 
-// The unit says where an objective is the distance from the experiment's angle, not an angle.
 // "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images;
 // of an angle "predicted 1.2 ° off ± 0.4, confirmed 1.5 ° off".
 std::string ObjectiveText(const Answer& answer, const ResultExperiment& experiment,
@@ -70,7 +68,7 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   }
   if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
   text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
-          base::ShortNumber(ComparableOf(*confirmed)) + unit;
+          base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
   if (MinimisesSad(answer) && confirmed->over_floor) {
     text += " (" + base::PlainNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
             base::PlainNumber(*experiment.noise_floor, 2) + ")";
@@ -170,7 +168,7 @@ std::string ConfirmedLines(const Answer& answer) {
             base::ShortNumber(c.scale_factor);
     if (!is_answer) text += ": " + ValuesText(answer, c.values);
     for (const ResultConfirmed& e : c.experiments) {
-      const double value = ComparableOf(e);
+      const double value = ComparableOf(answer, e);
       if (!is_answer && std::isfinite(value)) {
         text += "; " + e.name + " " + base::ShortNumber(value) + DistanceUnit(answer);
       }

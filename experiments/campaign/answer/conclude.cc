@@ -55,7 +55,9 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   std::vector<double> objective;
   std::vector<imaging::GrayImage> profiles;
   for (const journal::TrialRecord* trial : trials) {
-    if (const auto value = reference.Value(*trial)) objective.push_back(*value);
+    if (reference.has_image() && reference.IsMeasured(*trial)) {
+      objective.push_back(reference.Value(*trial).value_or(kWorstAngle));
+    }
     if (trial->status != journal::TrialStatus::kOk) continue;
     if (auto profile = evidence.profile(trial->id)) profiles.push_back(std::move(*profile));
   }

@@ -132,7 +132,8 @@ std::string DistanceUnit(const Answer& answer) {
   return " " + answer.objective_unit + (is_distance ? " off" : "");
 }
 
-double ComparableOf(const ResultConfirmed& confirmed) {
+double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed) {
+  if (MinimisesSad(answer) && confirmed.profile_sad_mm2) return *confirmed.profile_sad_mm2;
   return confirmed.profile_objective.value_or(confirmed.mean);
 }
 

@@ -85,8 +85,8 @@ double ErrorOf(const Answer& answer, const ResultExperiment& experiment,
                const ResultConfirmed& confirmed);
 
 // What the confirming trials of an experiment say that a model of mean heaps predicts: the
-// objective of their mean profile; of one without an objective there the mean. NaN without either.
-double ComparableOf(const ResultConfirmed& confirmed);
+// objective of their mean profile; of one that has none there the mean. NaN without either.
+double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed);
 
 // " mm²" after an objective's value, " ° off" after an angle's, which is a distance.
 std::string DistanceUnit(const Answer& answer);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 #include "optimizer/posterior_summary.h"
 
 namespace talus::campaign {
@@ -47,7 +48,7 @@ struct ResultPosterior {
   // The largest share of its width that any number of simulations would take from a range [-].
   double surrogate_narrowing = 0;
   std::vector<ResultStanding> experiments;  // at the recommended set
-  double tension = 0;                // between the experiments [standard deviations]: agreement.h
+  double tension = base::kNotKnown;  // between the experiments [standard deviations]: agreement.h
   std::string odd{};                 // the experiment with the largest part of it; "" without
   std::vector<ResultAlone> alone{};  // where experiments disagree only
 

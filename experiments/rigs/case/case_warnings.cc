@@ -40,8 +40,7 @@ std::string FillingWarning(const Case& c) {
 // The dense bed is near its tapped state, however cohesive the powder.
 std::string PackedWarning(const Case& c) {
   if (c.filling.kind != FillingKind::kDense) return {};
-  return "FILLED DENSELY: such a bed starts near its packed state, so that poured_density is far "
-         "too "
+  return "FILLED DENSELY: such a bed starts near its packed state, so that poured_density is too "
          "high and hausner_ratio near 1; pour it: \"filling\": {\"kind\": \"pour\"}";
 }
 

@@ -110,11 +110,13 @@ class DrumRig : public RememberingRig<DrumMemory> {
     }
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
     const double filled = FilledHeight(c, VesselOf(c)) * LooserBy(c);
-    // Rounded down, so that it is taken.
-    const double most_mass = 0.01 * std::floor(1e5 * c.powder.mass * most / filled);  // [g]
+    // Rounded down to the digits that are shown, so that it is taken.
+    const double exact = 1e3 * c.powder.mass * most / filled;  // [g]
+    const double digit = std::pow(10, std::floor(std::log10(exact)) - 2);
+    const double most_mass = digit * std::floor(exact / digit);
     problems.Require(filled < most, "powder.mass", c.powder.mass,
                      "is too much for the drum: it is filled to six tenths at most, here some " +
-                         base::ShortNumber(most_mass) + " g");
+                         base::ShortNumber(most_mass, 3) + " g");
   }
 
   // Few grains from front to back stand looser: 6 % higher where they are a sixth of the drum's

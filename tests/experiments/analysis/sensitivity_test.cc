@@ -111,8 +111,9 @@ TEST_F(SensitivityTest, ADiskThatIsFullIsNoFailureOfASimulation) {
 TEST(Sensitivity, WhatOutputsDoNotFeelMovesNoAnswer) {
   FixedMove move{
       .name = "youngs_modulus",
-      .outputs = {{.experiment = "heap", .output = "image", .shift = 0.67, .noise = 1.2},
-                  {.experiment = "heap", .output = "angle", .shift = -0.16, .noise = 1.3}},
+      .outputs =
+          {{.experiment = "heap", .output = "image", .shift = 0.67, .noise = 1.2, .num_modes = 8},
+           {.experiment = "heap", .output = "angle", .shift = -0.16, .noise = 1.3, .num_modes = 1}},
       .answer = {{.parameter = "sliding_friction", .half_ranges = 1.3, .half_ranges_error = 0.2}}};
   EXPECT_FALSE(move.Exceeds());
   EXPECT_FALSE(move.IsTold());

@@ -97,7 +97,7 @@ TEST(Alarms, OfAnotherObjectiveTheMeanHeapsIsComparedToo) {
   EXPECT_THAT(PredictionAlarms(answer), SizeIs(1));
   HeapOf(answer).profile_objective = 4.1;
   EXPECT_THAT(PredictionAlarms(answer), IsEmpty());
-  EXPECT_EQ(ComparableOf(HeapOf(answer)), 4.1);
+  EXPECT_EQ(ComparableOf(answer, HeapOf(answer)), 4.1);
 }
 
 // All fresh seeds of the recommended set have failed, those of an end have not: what the end gives

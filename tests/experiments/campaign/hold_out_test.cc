@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "experiments/analysis/card/card.h"
@@ -77,6 +78,9 @@ TEST(Agreement, TensionIsThatOfANormalVariableAsUnlikely) {
   EXPECT_EQ(Tension(0.5, 2), 0);  // less than usual
   EXPECT_EQ(Tension(-1, 2), 0);
   EXPECT_TRUE(std::isnan(Tension(1, 0.4)));  // a nuisance's share of a degree tells nothing
+  Answer answer;
+  answer.posterior.emplace().tension = Tension(1, 0.4);
+  EXPECT_TRUE(std::isnan(ParseAnswer(AnswerJson(answer)).posterior->tension));
   EXPECT_GT(Tension(4, 0.6), 1);
 }
 

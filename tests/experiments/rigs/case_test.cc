@@ -234,8 +234,6 @@ TEST(HeapScene, WarnsWhenTheScaleFactorClosesAnOpening) {
   EXPECT_TRUE(SetUpWarnings(rig_case).empty());
 }
 
-// Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
-// γ = 3.75e-3 J/m², whatever the scale factor.
 TEST(HeapScene, WarnsWhenWhatIsToBeTappedIsPlacedDensely) {
   Case rig_case = LoadCase(kExample);
   rig_case.rig.kind = RigKind::kTappedDensity;
@@ -244,6 +242,8 @@ TEST(HeapScene, WarnsWhenWhatIsToBeTappedIsPlacedDensely) {
   EXPECT_THAT(CaseWarnings(rig_case), Not(Contains(HasSubstr("DENSELY"))));
 }
 
+// Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
+// γ = 3.75e-3 J/m², whatever the scale factor.
 TEST(HeapScene, WarnsWhenACohesivePowderIsPlacedDensely) {
   Case rig_case = LoadCase(kExample);
   rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};

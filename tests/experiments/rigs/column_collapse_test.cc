@@ -58,8 +58,9 @@ TEST(ColumnCollapse, TheFrontIsWhereTheLayerEnds) {
 // that of what has moved.
 TEST(ColumnCollapse, ALongColumnRunsOutAsFarAsItsFace) {
   Case c = Collapse(0.45e-3);
-  const double near = Value(c, *Ran(c), "runout_m");
-  const double angle = Value(c, *Ran(c), "angle_deg");
+  const auto short_column = Ran(c);
+  const double near = Value(c, *short_column, "runout_m");
+  const double angle = Value(c, *short_column, "angle_deg");
   c.powder.mass *= 3;
   c.rig.column_collapse.length *= 3;
   const auto rig = Ran(c);
