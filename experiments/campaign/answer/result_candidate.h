@@ -40,9 +40,8 @@ struct ResultConfirmed {
   std::optional<double> sad_standard_error{};
   int degrees = 0;
   std::optional<double> profile_sad_mm2{};    // SAD of their mean profile
+  std::optional<double> over_floor{};         // … over the experiment's noise floor
   std::optional<double> profile_objective{};  // objective of their mean profile
-  std::optional<double>
-      over_floor{};  // SAD of their mean profile over the experiment's noise floor
   std::optional<double> spread_mm2{};  // mean SAD of each one's profile from that of the others
   std::vector<ResultScalar> scalars{};
 
