@@ -279,10 +279,10 @@ TEST(Flow, TheRateIsThatOfItsMiddle) {
 // A bed three grains deep on a wide flat floor: less than a tenth of it runs out, and leaves an
 // open crater. It was called an arch, with a rate of 0.
 TEST(OrificeFlow, ACraterIsNoArch) {
-  Case c = CaseOf(RigKind::kOrificeFlow, 0.5, 0.1, 2.9e-3);
-  c.rig.orifice_flow = {.diameter = 0.03, .orifice = 0.006, .arch_time = 0.2};
+  Case c = CaseOf(RigKind::kOrificeFlow, 0.5, 0.1, 3.7e-3);
+  c.rig.orifice_flow = {.diameter = 0.034, .orifice = 0.006, .arch_time = 0.2};
   const auto rig = Ran(c);
-  EXPECT_LT(Value(c, *rig, "mass_fallen_kg"), 0.1 * 2.9e-3);
+  EXPECT_LT(Value(c, *rig, "mass_fallen_kg"), 0.1 * 3.7e-3);
   EXPECT_EQ(Value(c, *rig, "flows"), 1);
   EXPECT_GT(Value(c, *rig, "discharge_rate_kg_per_s"), 0);
 }
