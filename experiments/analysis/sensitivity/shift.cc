@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/campaign/answer/agreement.h"
+
 namespace talus::analysis {
 
 ColumnMean MeanOfColumn(const Eigen::MatrixXd& outputs, Eigen::Index k) {
@@ -32,10 +34,8 @@ Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
 }
 
 bool IsByChance(double squares, double degrees) {
-  constexpr double kQuantile = 3.0902;  // of a standard normal
-  if (degrees == 0) return true;
-  const double share = 2 / (9 * degrees);
-  return squares <= degrees * std::pow(1 - share + kQuantile * std::sqrt(share), 3);
+  constexpr double kSeldom = 3.0902;  // standard deviations: the 99.9 % quantile of a normal
+  return !(campaign::Tension(squares, degrees) > kSeldom);
 }
 
 }  // namespace talus::analysis

@@ -28,8 +28,8 @@ Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
               const Eigen::VectorXd& noise);
 
 // Whether chance makes such a sum of squares of so many independent shifts in their standard
-// deviations once in a thousand times or more often: the 99.9 % quantile of χ², by Wilson and
-// Hilferty. Of nothing it does.
+// deviations once in a thousand times or more often (χ², as campaign::Tension scores it). Of
+// nothing it does.
 bool IsByChance(double squares, double degrees);
 
 }  // namespace talus::analysis
