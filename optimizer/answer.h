@@ -35,7 +35,8 @@ struct Answer {
   double predicted_sd = base::kNotKnown;
   double noise_sd = base::kNotKnown;     // noise sd of one evaluation there; 0 when deterministic
   std::vector<Range> credible;           // one a parameter, 90 % for all of them together
-  Eigen::MatrixXd correlation;           // between parameters, of the posterior of the minimiser
+  Eigen::MatrixXd correlation;           // between parameters, of the posterior of the minimiser;
+                                         // empty without a model
   std::vector<Eigen::VectorXd> tied;     // points that tie with `point` within the noise
   double tied_volume = base::kNotKnown;  // their share of the unit cube, in [0, 1]; NaN as above
   std::vector<double> sobol_first;       // first-order Sobol index, one a parameter

@@ -2,9 +2,12 @@
 // out on predicted images too.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
+
+#include "base/problems.h"
 
 namespace talus::optimizer {
 
@@ -25,6 +28,10 @@ struct FieldObjective {
   int num_target_heaps = 0;
 
   double Value(std::span<const float> field) const;
+  std::size_t num_pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  void Validate(base::Problems& problems) const;
 };
 
 }  // namespace talus::optimizer

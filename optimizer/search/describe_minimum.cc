@@ -13,24 +13,6 @@
 namespace talus::optimizer {
 namespace {
 
-// The domain less what more probably fails than works.
-Domain LikelyToWork(const Domain& domain, const Feasibility* feasibility) {
-  constexpr double kLikely = 0.5;
-  if (feasibility == nullptr || feasibility->always()) return domain;
-  Domain likely = domain;
-  likely.feasible = [feasibility, feasible = domain.feasible](const Eigen::VectorXd& x) {
-    return (!feasible || feasible(x)) && feasibility->Probability(x) >= kLikely;
-  };
-  if (!domain.IsList()) return likely;
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < domain.candidates.rows(); ++i) {
-    if (likely.feasible(domain.candidates.row(i))) kept.push_back(i);
-  }
-  if (kept.empty()) return domain;  // no candidates at all would be the whole cube
-  likely.candidates = domain.candidates(kept, Eigen::all);
-  return likely;
-}
-
 // Candidates round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
 Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
   base::Random random(seed, base::Stream("around the answer"));
@@ -276,7 +258,8 @@ std::string BoundText(const std::string& parameter, bool is_upper, bool has_leve
 
 Answer DescribeMinimum(const ObjectiveModel& model, const Domain& whole,
                        const Eigen::VectorXd& point, const AnswerOptions& options) {
-  const Domain domain = LikelyToWork(whole, options.feasibility);
+  const Domain domain =
+      options.feasibility == nullptr ? whole : options.feasibility->LikelyToWork(whole);
   Answer answer;
   answer.point = point;
   const Moments at = model.Predict(point.transpose());

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace talus::optimizer {
 namespace {
 
+constexpr double kLikely = 0.5;
 constexpr double kTurn = 0.7;   // the penalty is ln p above and a line below
 constexpr double kSteep = 1e6;  // slope of that line: more than any acquisition can gain
 
@@ -33,6 +35,22 @@ Feasibility::Feasibility(const History& history) {
 
 double Feasibility::Probability(const Eigen::VectorXd& x) const {
   return worked_.always() ? 1 : std::clamp(worked_.process().Predict(x).mean, 0.0, 1.0);
+}
+
+Domain Feasibility::LikelyToWork(const Domain& domain) const {
+  if (always()) return domain;
+  Domain likely = domain;
+  likely.feasible = [this, feasible = domain.feasible](const Eigen::VectorXd& x) {
+    return (!feasible || feasible(x)) && Probability(x) >= kLikely;
+  };
+  if (!domain.IsList()) return likely;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < domain.candidates.rows(); ++i) {
+    if (likely.feasible(domain.candidates.row(i))) kept.push_back(i);
+  }
+  if (kept.empty()) return domain;  // no candidates at all would be the whole cube
+  likely.candidates = domain.candidates(kept, Eigen::all);
+  return likely;
 }
 
 Eigen::VectorXd Feasibility::Penalty(const Eigen::MatrixXd& points) const {

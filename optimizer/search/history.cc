@@ -1,6 +1,7 @@
 #include "optimizer/search/history.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "optimizer/designs/points_within.h"
 #include "surrogate/same_point.h"
@@ -50,7 +51,6 @@ void Repeats::CountLast(const History& history) {
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,
                     const std::string& seen) {
   Answer answer;
-  answer.correlation = Eigen::MatrixXd::Identity(domain.num_parameters, domain.num_parameters);
   answer.model = "no model: the best observation of " + seen;
   const Observation* best = nullptr;
   for (const Observation& observation : told) {
@@ -66,10 +66,14 @@ Answer BestObserved(std::span<const Observation> told, const Domain& domain,
   answer.point = best->point;
   answer.predicted_value = best->value;
   for (Eigen::Index i = 0; i < answer.point.size(); ++i) {
-    if (answer.point[i] > surrogate::kSamePoint && answer.point[i] < 1 - surrogate::kSamePoint)
-      continue;
-    answer.warnings.push_back(
-        {.parameter = static_cast<int>(i), .is_upper = answer.point[i] > 0.5});
+    const double at = answer.point[i];
+    const bool is_between = at > surrogate::kSamePoint && at < 1 - surrogate::kSamePoint;
+    // One that has had a single value so far says nothing of its bounds.
+    const bool varied = std::ranges::any_of(told, [&](const Observation& other) {
+      return std::abs(other.point[i] - at) > surrogate::kSamePoint;
+    });
+    if (is_between || !varied) continue;
+    answer.warnings.push_back({.parameter = static_cast<int>(i), .is_upper = at > 0.5});
   }
   return answer;
 }

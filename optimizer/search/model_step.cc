@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "optimizer/search/acquisition.h"
 #include "optimizer/space/ascending.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
@@ -66,6 +68,19 @@ Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
   return SearchCube(function, view.domain, centers, options).point;
 }
 
+// Where evaluations fail, the model of successes is less sure of their surroundings than one that
+// has worked: the lowest such is taken in place of a point that is higher and only thought to be
+// safer.
+Eigen::VectorXd OrEvaluated(const ModelView& view, Eigen::VectorXd lowest) {
+  const Domain likely = view.feasibility.LikelyToWork(view.domain);
+  const Eigen::MatrixXd worked = Inside(likely, view.points);
+  if (view.feasibility.always() || view.domain.IsList() || worked.rows() == 0) return lowest;
+  Eigen::Index best = 0;
+  const double value = view.model.Means(worked).minCoeff(&best);
+  if (value >= view.model.Means(lowest.transpose())[0]) return lowest;
+  return worked.row(best);
+}
+
 }  // namespace
 
 Eigen::MatrixXd BestEvaluated(const ModelView& view) {
@@ -101,10 +116,12 @@ Eigen::VectorXd LowestMean(const ModelView& view, const Eigen::MatrixXd& centers
     const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
       return view.model.Means(points) - view.failure_cost * view.feasibility.Penalty(points);
     };
-    return Search(view, WithoutGradient(view, values), centers, view.searches.mean);
+    return OrEvaluated(view,
+                       Search(view, WithoutGradient(view, values), centers, view.searches.mean));
   }
   const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, 0); };
-  return Search(view, Negative(view, score, view.failure_cost), centers, view.searches.mean);
+  return OrEvaluated(
+      view, Search(view, Negative(view, score, view.failure_cost), centers, view.searches.mean));
 }
 
 double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers) {
@@ -113,7 +130,9 @@ double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers) {
   const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, kBoundSds); };
   CheapFunction function = Negative(view, score, 0);
   if (options.kinked) function = WithoutGradient(view, function.values);
-  return SearchCube(function, view.domain, centers, options).value;
+  const Found found =
+      SearchCube(function, view.feasibility.LikelyToWork(view.domain), centers, options);
+  return std::min(found.value, function.values(centers).minCoeff());
 }
 
 }  // namespace talus::optimizer

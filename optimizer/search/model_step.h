@@ -59,13 +59,14 @@ Eigen::MatrixXd BestEvaluated(const ModelView& view);
 Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& incumbent,
                                         const Eigen::MatrixXd& centers);
 
-// The minimiser of the posterior mean over the domain. The search starts near `centers`, one a row;
-// by default the best evaluated points.
+// The minimiser of the posterior mean over the domain, where evaluations are likely to work. The
+// search starts near `centers`, one a row; by default the best evaluated points.
 Eigen::VectorXd LowestMean(const ModelView& view);
 Eigen::VectorXd LowestMean(const ModelView& view, const Eigen::MatrixXd& centers);
 
-// The lowest posterior mean - kBoundSds posterior standard deviations over the domain. The search
-// starts near `centers`, one a row.
+// The lowest posterior mean - kBoundSds posterior standard deviations over the domain, less where
+// evaluations more probably fail than work. The search starts near `centers`, one a row, at least
+// one.
 double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers);
 
 }  // namespace talus::optimizer

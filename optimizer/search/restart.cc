@@ -13,18 +13,6 @@ namespace {
 constexpr double kNear = 0.01;   // of the cube: evaluations that polish the best one
 constexpr double kLongLink = 2;  // times the mean link
 
-bool HasConverged(const History& history, int num_before) {
-  const Eigen::Index patience = 2 * history.points.cols();
-  const Eigen::Index before = history.values.size() - patience;
-  if (before < num_before) return false;
-  const double gain = history.values.head(before).minCoeff() - history.values.minCoeff();
-  if (gain > LeastGain(history.values, num_before)) return false;
-  Eigen::Index best = 0;
-  history.values.minCoeff(&best);
-  const auto apart = (history.points.rowwise() - history.points.row(best)).rowwise().norm();
-  return (apart.array() < kNear).count() > patience;
-}
-
 struct Link {
   Eigen::Index better = -1;  // none of the best one
   double length = 0;
@@ -75,6 +63,18 @@ History Without(const History& history, const std::vector<bool>& left_out) {
 }
 
 }  // namespace
+
+bool HasConverged(const History& history, int num_before) {
+  const Eigen::Index patience = 2 * history.points.cols();
+  const Eigen::Index before = history.values.size() - patience;
+  if (before < num_before) return false;
+  const double gain = history.values.head(before).minCoeff() - history.values.minCoeff();
+  if (gain > LeastGain(history.values, num_before)) return false;
+  Eigen::Index best = 0;
+  history.values.minCoeff(&best);
+  const auto apart = (history.points.rowwise() - history.points.row(best)).rowwise().norm();
+  return (apart.array() < kNear).count() > patience;
+}
 
 std::optional<Elsewhere> RestartElsewhere(const History& history, const Domain& domain,
                                           int num_before) {

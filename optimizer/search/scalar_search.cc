@@ -24,6 +24,10 @@ constexpr double kAnswerInflation = 1.5;
 // Below this probability that an evaluation works, no step near the best point is taken.
 constexpr double kSafe = 0.7;
 
+// Without noise a process has a floor that keeps it solvable, and knows no point better than that.
+// Gains of less than so many of its bounds are none that it could promise.
+constexpr double kFloors = 5;
+
 ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, const Domain& domain,
                  std::uint64_t seed) {
   const Eigen::VectorXd mean = model.Means(record.history().points);
@@ -132,13 +136,20 @@ std::optional<StopReason> ScalarSearch::WhyStop(const SearchRecord& record) {
   const ScalarFit& fit = Fit(record);
   const TransformedModel model(fit.process);
   const ModelView view = ViewOf(model, record, record.domain(), record.options().seed);
-  const double bound = fit.transform.Backward(LowestBound(view, BestEvaluated(view)));
+  const double bound = LowestBound(view, BestEvaluated(view));
+  const double noise = model.NoiseSd(record.history().points.row(0));
   if (record.noise_free()) {
-    return record.ReasonToStop(record.history().values.minCoeff() - bound, 0);
+    const double lowest = record.history().values.minCoeff();
+    if (const auto reason = record.ReasonToStop(lowest - fit.transform.Backward(bound), 0)) {
+      return reason;
+    }
+    const bool is_unseen = fit.transform.Forward(lowest) - bound < kFloors * kBoundSds * noise;
+    if (!is_unseen || !HasConverged(record.history(), NumBefore(record))) return std::nullopt;
+    return StopReason{.rule = StopRule::kConverged, .name = "the search"};
   }
   const Moments best = model.Predict(Best(record).transpose());
-  return record.ReasonToStop(best.mean[0] + kBoundSds * best.sd[0] - bound,
-                             model.NoiseSd(record.history().points.row(0)));
+  return record.ReasonToStop(best.mean[0] + kBoundSds * best.sd[0] - fit.transform.Backward(bound),
+                             noise);
 }
 
 Answer ScalarSearch::Recommend(const SearchRecord& record) {

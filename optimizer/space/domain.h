@@ -6,9 +6,12 @@
 #include <functional>
 #include <vector>
 
+#include "base/problems.h"
 #include "optimizer/space/prior.h"
 
 namespace talus::optimizer {
+
+inline constexpr int kMaxParameters = 6;
 
 // A coordinate that is searched since some evaluations were made, all of these at one value.
 struct AddedCoordinate {
@@ -17,7 +20,7 @@ struct AddedCoordinate {
 };
 
 struct Domain {
-  int num_parameters = 3;                     // 1 … 6
+  int num_parameters = 3;                     // 1 … kMaxParameters
   std::vector<Eigen::VectorXd> guesses = {};  // points to be evaluated first, unit cube
   std::function<bool(const Eigen::VectorXd&)> feasible = {};  // empty: the whole cube
   // The only points there are, one a row; empty: any point.
@@ -28,6 +31,9 @@ struct Domain {
   Prior prior = {};
   std::vector<Eigen::Index> nuisances = {};  // coordinates that are not asked for, ascending
   std::vector<AddedCoordinate> added = {};
+
+  // Sizes, and that all lies in the unit cube; `feasible` is not asked.
+  void Validate(base::Problems& problems) const;
 
   bool Contains(const Eigen::VectorXd& point) const {
     return (point.array() >= 0).all() && (point.array() <= 1).all() &&

@@ -17,11 +17,22 @@
 namespace talus::optimizer {
 namespace {
 
-// The way to the unit cube and back costs a table's value its last bits.
-double AsWritten(double value) {
-  const std::string text = base::ShortNumber(value, 15);
+double RoundedTo(double value, int digits) {
+  const std::string text = base::ShortNumber(value, digits);
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
+}
+
+// The way to the unit cube and back costs a table's value its last bits, on a log scale its last
+// digits: it is the shortest number that goes to the same place.
+double AsWritten(const Parameter& parameter, double unit) {
+  constexpr int kFewest = 12, kMost = 17;  // digits
+  const double value = parameter.ToNative(unit);
+  for (int digits = kFewest; digits < kMost; ++digits) {
+    const double shorter = RoundedTo(value, digits);
+    if (parameter.ToUnit(shorter) == unit) return shorter;
+  }
+  return RoundedTo(value, 15);
 }
 
 int IndexOf(const std::vector<Parameter>& parameters, const std::string& name) {
@@ -200,13 +211,13 @@ void Parameter::ValidateLevels(base::Problems& problems) const {
 
 double Parameter::ToNative(double unit) const {
   if (fixed) return *fixed;
-  const double value = range().ToNative(unit);
-  if (!levels.empty()) {  // exactly, not but for rounding
+  if (!levels.empty()) {  // exactly, not but for rounding; the nearest as Domain::Snap has it
     return *std::min_element(levels.begin(), levels.end(), [&](double a, double b) {
-      return std::abs(a - value) < std::abs(b - value);
+      return std::abs(ToUnit(a) - unit) < std::abs(ToUnit(b) - unit);
     });
   }
-  return std::clamp(value, lowest(), highest());  // rounding must not leave the range at its ends
+  // Rounding must not leave the range at its ends.
+  return std::clamp(range().ToNative(unit), lowest(), highest());
 }
 
 void ParameterSpace::Validate(base::Problems& problems) const {
@@ -249,8 +260,12 @@ std::vector<double> ParameterSpace::ToNative(const Eigen::VectorXd& unit) const 
   std::vector<double> native;
   Eigen::Index i = 0;
   for (const Parameter& parameter : parameters) {
-    native.push_back(parameter.fixed ? *parameter.fixed : parameter.ToNative(unit[i++]));
-    if (!candidates.empty()) native.back() = AsWritten(native.back());
+    if (parameter.fixed) {
+      native.push_back(*parameter.fixed);
+      continue;
+    }
+    const double at = unit[i++];
+    native.push_back(candidates.empty() ? parameter.ToNative(at) : AsWritten(parameter, at));
   }
   return native;
 }

@@ -17,8 +17,6 @@
 
 namespace talus::optimizer {
 
-inline constexpr int kMaxParameters = 6;
-
 struct Parameter {
   std::string name;
   double low = base::kNotKnown;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/search/describe_minimum.h"
@@ -33,7 +35,15 @@ ImageStrategy::ImageStrategy(const Domain& domain, const FieldObjective& objecti
     : SurrogateStrategy(domain, options),
       fields_(objective, options.seed),
       by_values_(options.seed),
-      has_exact_target_(objective.num_target_heaps == 0) {}
+      has_exact_target_(objective.num_target_heaps == 0),
+      num_pixels_(objective.num_pixels()) {}
+
+void ImageStrategy::RequireUsable(const Observation& observation) const {
+  if (observation.field.size() == num_pixels_) return;
+  throw base::ConfigError("field: has " + std::to_string(observation.field.size()) +
+                          " pixels, must have the " + std::to_string(num_pixels_) +
+                          " of the objective; tell an evaluation that has no image as failed");
+}
 
 void ImageStrategy::Update(const Observation& observation) {
   by_values_.Update();
@@ -158,6 +168,19 @@ Eigen::VectorXd ImageStrategy::Best(const ImageModel& model, const Domain& domai
   return LowestMean(ViewOf(model, domain, record().options().seed));
 }
 
+// Without noise the best evaluation is known. A model may promise less than it: it is believed
+// where it is sure, and not where it promises a difference below zero, which no image has.
+Eigen::VectorXd ImageStrategy::Recommended(const ImageModel& model) const {
+  const Eigen::VectorXd lowest = Best(model, record().domain());
+  if (!record().noise_free()) return lowest;
+  Eigen::Index best = 0;
+  const double evaluated = record().history().values.minCoeff(&best);
+  const Moments at = model.Predict(lowest.transpose());
+  const bool is_sure = at.mean[0] >= 0 && at.mean[0] + kBoundSds * at.sd[0] < evaluated;
+  if (is_sure) return lowest;
+  return record().history().points.row(best);
+}
+
 std::optional<StopReason> ImageStrategy::WhyStop() {
   if (!record().MayStop(fields_.size())) return std::nullopt;
   if (!Model()) return by_values_.WhyStop(record());
@@ -190,7 +213,7 @@ Answer ImageStrategy::Recommend() {
   // Each candidate costs an image, so there are fewer than of a process of values; and fewer still
   // where a metric other than the sum of differences is measured on each.
   const bool slow = fields_.has_metric();
-  Answer answer = DescribeMinimum(*model_, record().domain(), Best(*model_, record().domain()),
+  Answer answer = DescribeMinimum(*model_, record().domain(), Recommended(*model_),
                                   {.num_candidates = slow ? 300 : 800,
                                    .num_draw_candidates = slow ? 80 : 300,
                                    .num_draws = slow ? 100 : 200,

@@ -5,6 +5,7 @@
 // (image_history.h), it steps by the values.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "optimizer/search/image_history.h"
@@ -24,6 +25,7 @@ class ImageStrategy : public SurrogateStrategy {
 
  private:
   Proposal ByModel(const Points& asked) override;
+  void RequireUsable(const Observation& observation) const override;
   void Update(const Observation& observation) override;
 
   const std::optional<ImageModel>& Model();
@@ -36,11 +38,13 @@ class ImageStrategy : public SurrogateStrategy {
   double LowestOwnValue(const ImageModel& model) const;
   Eigen::VectorXd ByDraw(const ImageModel& model, const Points& asked) const;
   Eigen::VectorXd Best(const ImageModel& model, const Domain& domain) const;
+  Eigen::VectorXd Recommended(const ImageModel& model) const;
   Answer RecommendByValues();
 
   ImageHistory fields_;
   ScalarSearch by_values_;
   bool has_exact_target_ = true;
+  std::size_t num_pixels_ = 0;
   std::optional<ImageModel> model_;
   bool is_current_ = false;  // model_ knows all that was told
 };

@@ -1,8 +1,10 @@
 #include "optimizer/strategy/make_strategy.h"
 
 #include <numeric>
+#include <string>
 
 #include "base/error.h"
+#include "base/text/number_text.h"
 #include "optimizer/designs/points_within.h"
 #include "optimizer/strategy/design_strategy.h"
 #include "optimizer/strategy/image_strategy.h"
@@ -20,6 +22,11 @@ constexpr int kUsualLevels = 8;
 std::vector<int> LevelsFor(const StrategyOptions& options, int num_parameters) {
   if (!options.levels.empty()) return options.levels;
   return std::vector<int>(static_cast<std::size_t>(num_parameters), kUsualLevels);
+}
+
+double GridSize(const StrategyOptions& options, int num_parameters) {
+  const std::vector<int> all = LevelsFor(options, num_parameters);
+  return std::accumulate(all.begin(), all.end(), 1.0, std::multiplies<>());
 }
 
 bool HasModel(StrategyKind kind) {
@@ -108,15 +115,28 @@ void StrategyOptions::ValidateFor(int num_parameters, bool continuous,
   problems.Require(levels.empty() || static_cast<int>(levels.size()) == num_parameters, "levels",
                    "has " + std::to_string(levels.size()) + " numbers for " +
                        std::to_string(num_parameters) + " parameters: give one for each");
-  const std::vector<int> all = LevelsFor(*this, num_parameters);
-  const double size = std::accumulate(all.begin(), all.end(), 1.0, std::multiplies<>());
-  problems.Require(size <= kMaxDesign, "levels", size,
+  problems.Require(GridSize(*this, num_parameters) <= kMaxDesign, "levels",
+                   GridSize(*this, num_parameters),
                    "points of the grid, must be at most 10000: give fewer levels");
+}
+
+void StrategyOptions::ValidateGrid(int num_parameters, int num_evaluations,
+                                   base::Problems& problems) const {
+  if (kind != StrategyKind::kGrid) return;
+  const double size = GridSize(*this, num_parameters);
+  problems.Require(size <= num_evaluations, "levels",
+                   "make a grid of " + base::ShortNumber(size) + " points for " +
+                       std::to_string(num_evaluations) +
+                       " evaluations, which would all be in a corner of it: give fewer levels, or "
+                       "pay for more");
 }
 
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
                                        const FieldObjective* field, std::uint64_t seed) {
   base::Problems problems;
+  problems.Within("domain", [&] { domain.Validate(problems); });
+  if (field != nullptr) problems.Within("field", [&] { field->Validate(problems); });
+  problems.ThrowIfAny();  // the options are judged by the domain
   options.Validate(problems);
   options.ValidateFor(domain.num_parameters, domain.IsContinuous(), problems);
   problems.ThrowIfAny();

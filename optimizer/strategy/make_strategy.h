@@ -66,10 +66,14 @@ struct StrategyOptions {
 
   // What only shows once the space is known; `continuous`: with neither levels nor candidates.
   void ValidateFor(int num_parameters, bool continuous, base::Problems& problems) const;
+
+  // A grid larger than the evaluations that may be made, which go through it in order and would see
+  // a corner of the ranges alone.
+  void ValidateGrid(int num_parameters, int num_evaluations, base::Problems& problems) const;
 };
 
 // `field` is given when evaluations bring images; the strategy copies it. Equal arguments and equal
-// observations make equal proposals.
+// observations make equal proposals. Throws base::ConfigError where one of them cannot be.
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
                                        const FieldObjective* field, std::uint64_t seed);
 

@@ -24,6 +24,7 @@ std::optional<Proposal> SurrogateStrategy::Next(const Points& asked) {
 }
 
 void SurrogateStrategy::Tell(const Observation& observation) {
+  if (!observation.failed) RequireUsable(observation);
   record_.Tell(observation);
   Update(observation);
 }

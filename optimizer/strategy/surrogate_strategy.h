@@ -23,6 +23,9 @@ class SurrogateStrategy : public Strategy {
  protected:
   // One more proposal while those `asked` are being evaluated. At least two evaluations succeeded.
   virtual Proposal ByModel(const Points& asked) = 0;
+  // Throws base::ConfigError, before anything learns of it, where an evaluation that has not failed
+  // lacks what the model is made from.
+  virtual void RequireUsable(const Observation&) const {}
   // The record knows `observation` already.
   virtual void Update(const Observation& observation) = 0;
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/number_text.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/level_ranks.h"
 #include "optimizer/space/parameter_space.h"
@@ -263,6 +264,40 @@ TEST(Candidates, ASearchOverContinuousParametersIsRefused) {
   const Domain domain{.num_parameters = 2, .candidates = RSequence(12, 2, 3)};
   EXPECT_THROW(MakeStrategy({.kind = StrategyKind::kBobyqa}, domain, nullptr, 1),
                base::ConfigError);
+}
+
+// The way to the unit cube and back took digits from every third value of a wide logarithmic range,
+// so that a command that looks its row up did not find it.
+TEST(Candidates, ARowOfATableReachesTheCommandAsItWasWritten) {
+  const std::string path = ::testing::TempDir() + "/rows_on_a_log_scale.csv";
+  std::vector<double> values;
+  for (int i = 0; i < 200; ++i) {
+    const double decade = std::pow(10.0, -12 + i % 12);
+    values.push_back(std::stod(std::to_string(100 + 4 * i) + "e-3") * decade);
+  }
+  std::ofstream file(path);
+  file << "x\n";
+  for (const double value : values) file << base::ShortNumber(value, 12) << '\n';
+  file.close();
+  const ParameterSpace space{
+      .parameters = {{.name = "x", .low = 1e-13, .high = 1, .scale = Scale::kLog}},
+      .candidates = path};
+  const Domain domain = space.MakeDomain();
+  std::set<double> written, told;
+  for (const double value : values) written.insert(std::stod(base::ShortNumber(value, 12)));
+  for (Eigen::Index i = 0; i < domain.candidates.rows(); ++i) {
+    told.insert(space.ToNative(domain.candidates.row(i))[0]);
+  }
+  EXPECT_EQ(told, written);
+}
+
+// A point was judged by one level and evaluated at another.
+TEST(Candidates, ALevelOnALogScaleIsTheNearestThere) {
+  const Parameter parameter{.name = "x", .scale = Scale::kLog, .levels = {1, 10, 100}};
+  EXPECT_EQ(parameter.ToNative(0.3), 10);
+  EXPECT_EQ(parameter.ToNative(0.2), 1);
+  EXPECT_EQ(parameter.ToNative(0.7), 10);
+  EXPECT_EQ(parameter.ToNative(0.8), 100);
 }
 
 }  // namespace candidates_test

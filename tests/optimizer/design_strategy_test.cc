@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "optimizer/strategy/make_strategy.h"
 #include "surrogate/same_point.h"
 #include "tests/error_in.h"
@@ -117,6 +119,64 @@ TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
               HasSubstr("has 2 numbers for 6 parameters"));
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid}), HasSubstr("must be at most 10000"));
   EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
+}
+
+// They ended in Eigen's assertions or a crash, or were searched outside the cube.
+TEST(MakeStrategy, RefusesADomainThatCannotBe) {
+  const auto error_of = [](const Domain& domain, StrategyKind kind = StrategyKind::kGp) {
+    return ErrorIn([&] { MakeStrategy({.kind = kind}, domain, nullptr, 1); });
+  };
+  EXPECT_EQ(error_of({.num_parameters = 0}), "domain.num_parameters: is 0, must be from 1 to 6");
+  EXPECT_THAT(error_of({.num_parameters = -1}, StrategyKind::kGrid), HasSubstr("is -1"));
+  EXPECT_THAT(error_of({.num_parameters = 7}), HasSubstr("is 7"));
+  EXPECT_EQ(error_of({.num_parameters = 2, .guesses = {Eigen::Vector3d(0.1, 0.2, 0.3)}}),
+            "domain.guesses[0]: has 3 coordinates for 2 parameters: give one for each");
+  const std::string outside = "lies outside the unit cube";
+  EXPECT_THAT(error_of({.num_parameters = 2, .guesses = {Eigen::Vector2d(1.5, 1.5)}}),
+              HasSubstr("domain.guesses[0]: " + outside));
+  EXPECT_THAT(error_of({.num_parameters = 2, .candidates = Eigen::MatrixXd::Zero(4, 3)}),
+              HasSubstr("domain.candidates: has 3 columns for 2 parameters"));
+  EXPECT_THAT(error_of({.num_parameters = 1, .candidates = Eigen::Vector3d(0, 0.5, 20)}),
+              HasSubstr("domain.candidates[2]: " + outside));
+  EXPECT_THAT(error_of({.num_parameters = 2, .levels = {{0, 1}}}),
+              HasSubstr("domain.levels: has 1 lists for 2 parameters"));
+  EXPECT_THAT(error_of({.num_parameters = 1, .levels = {{1, 0.5, 0}}}),
+              HasSubstr("domain.levels[0]: must be ascending"));
+  EXPECT_THAT(error_of({.num_parameters = 1, .levels = {{0, 20}}}), HasSubstr(outside));
+  EXPECT_THAT(error_of({.num_parameters = 2, .nuisances = {2}}), HasSubstr("domain.nuisances"));
+  EXPECT_THAT(error_of({.num_parameters = 2, .added = {{.coordinate = 2}}}),
+              HasSubstr("domain.added"));
+}
+
+TEST(MakeStrategy, TakesADomainThatRoundingHasTouched) {
+  const double beyond = 1 + std::numeric_limits<double>::epsilon();
+  const Domain domain{.num_parameters = 2,
+                      .guesses = {Eigen::Vector2d(-1e-17, beyond)},
+                      .levels = {{}, {0, 0.5, beyond}}};
+  EXPECT_EQ(MakeStrategy({.kind = StrategyKind::kGp}, domain, nullptr, 1)->Ask(1, {}).size(), 1u);
+}
+
+TEST(MakeStrategy, RefusesAnObjectiveOfImagesThatCannotBe) {
+  const auto error_of = [](const FieldObjective& field) {
+    return ErrorIn([&] { MakeStrategy({}, Domain{.num_parameters = 2}, &field, 1); });
+  };
+  EXPECT_THAT(error_of({}), HasSubstr("field.width: is 0, must be at least 1"));
+  const FieldObjective sound{
+      .width = 3, .height = 3, .target = std::vector<float>(9), .sad_scale = 1};
+  EXPECT_EQ(error_of(sound), "");
+  FieldObjective wrong = sound;
+  wrong.target.resize(3);
+  EXPECT_EQ(error_of(wrong), "field.target: has 3 pixels, must have 3 x 3");
+  wrong.target.assign(9, 255);
+  EXPECT_THAT(error_of(wrong), HasSubstr("field.target: must have values from 0 to 1"));
+  wrong = sound;
+  wrong.sad_scale = 0;
+  EXPECT_THAT(error_of(wrong), HasSubstr("field.sad_scale: is 0, must be positive"));
+  wrong.target.clear();
+  wrong.metric = [](std::span<const float> field) { return static_cast<double>(field[0]); };
+  EXPECT_EQ(error_of(wrong), "");  // neither is needed by a metric of its own
+  wrong.num_target_heaps = -1;
+  EXPECT_THAT(error_of(wrong), HasSubstr("num_target_heaps"));
 }
 
 TEST(MakeStrategy, RefusesAGridThatConstraintsLeaveWithoutAPoint) {

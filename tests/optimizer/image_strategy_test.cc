@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel_for.h"
@@ -11,6 +12,7 @@
 #include "optimizer/strategy/make_strategy.h"
 #include "surrogate/images/column_edges.h"
 #include "surrogate/same_point.h"
+#include "tests/error_in.h"
 #include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
@@ -238,6 +240,60 @@ TEST(ImageStrategy, FailedEvaluationsAreNotProposedAgain) {
   }
   EXPECT_LT(failed.size(), 8u);
   EXPECT_GT(strategy->Recommend().point[0], 0.3);
+}
+
+// It read pixels that are not there. Nothing of what is refused is learnt.
+TEST(ImageStrategy, AnEvaluationWithoutItsWholeImageIsRefused) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kAuto, objective);
+  const auto point = strategy->Ask(1, {}).at(0).point;
+  EXPECT_THAT(
+      ErrorIn([&] { strategy->Tell({.point = point, .value = 1}); }),
+      HasSubstr("field: has 0 pixels, must have the " + std::to_string(kHeapSize.num_pixels())));
+  EXPECT_THAT(ErrorIn([&] {
+                strategy->Tell({.point = point, .value = 1, .field = {0, 1, 0}});
+              }),
+              HasSubstr("field: has 3 pixels"));
+  EXPECT_EQ(strategy->Ask(1, {}).at(0).point, point);
+  strategy->Tell({.point = point, .failed = true});
+  EXPECT_NE(strategy->Ask(1, {}).at(0).point, point);
+}
+
+// A bell on a bed, whose model promised differences below zero far from the best evaluation.
+std::vector<float> Bell(const Eigen::VectorXd& u) {
+  constexpr int kWidth = 40, kHeight = 20;
+  std::vector<float> field(static_cast<std::size_t>(kWidth * kHeight));
+  for (int i = 0; i < kHeight; ++i) {
+    for (int j = 0; j < kWidth; ++j) {
+      const double top = 2 + 12 * u[0] * std::exp(-std::pow((j - 20) / (4 + 10 * u[1]), 2));
+      field[static_cast<std::size_t>(i * kWidth + j)] =
+          static_cast<float>(std::clamp(top - (kHeight - 1 - i), 0.0, 1.0));
+    }
+  }
+  return field;
+}
+
+TEST(ImageStrategy, WithoutNoiseItAnswersNoWorseThanTheBestEvaluation) {
+  const FieldObjective objective{.width = 40,
+                                 .height = 20,
+                                 .target = Bell(Eigen::Vector2d(0.6, 0.4)),
+                                 .sad_scale = 100.0 / 800,
+                                 .metric = {}};
+  for (const std::uint64_t seed : {6, 10}) {
+    const auto strategy =
+        MakeStrategy({.stop_multiple = 0}, Domain{.num_parameters = 2}, &objective, seed);
+    double best = INFINITY;
+    for (int count = 1; count <= 24; ++count) {
+      const Eigen::VectorXd x = strategy->Ask(1, {}).at(0).point;
+      const auto field = Bell(x);
+      best = std::min(best, objective.Value(field));
+      strategy->Tell({.point = x, .value = objective.Value(field), .field = field});
+      if (count % 6 != 0 && count != 20) continue;
+      // Where the model is sure it may err by its error, not by a multiple of what is known.
+      EXPECT_LT(objective.Value(Bell(strategy->Recommend().point)), 1.5 * best)
+          << seed << ' ' << count;
+    }
+  }
 }
 
 }  // namespace image_strategy_test

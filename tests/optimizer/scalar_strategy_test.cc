@@ -329,5 +329,45 @@ TEST(ScalarStrategy, FindsPointsWithinANarrowConstraint) {
   }
 }
 
+// The minimum of what works lies where failures begin. The answer kept away from there by a tenth
+// of the range, and the search waited for gains where everything fails.
+TEST(ScalarStrategy, AnswersAtTheEdgeOfWhatFailsAndThenEnds) {
+  const auto searched = [](double noise, int most, std::uint64_t seed) {
+    ScalarStrategy strategy({.num_parameters = 1}, {.seed = seed});
+    int count = 0;
+    while (count < most && !(count > 0 && strategy.WhyStop())) {
+      const Eigen::VectorXd x = strategy.Ask(1, {}).at(0).point;
+      base::Random random(seed, base::Stream("edge"), static_cast<std::uint64_t>(++count));
+      const double value = std::pow(x[0] - 0.3, 2) + noise * random.Normal();
+      strategy.Tell({.point = x, .failed = x[0] < 0.45, .value = value, .field = {}});
+    }
+    return std::pair(count, strategy.Recommend().point[0]);
+  };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    // 0.46 costs three standard deviations of the noise more than the edge does.
+    EXPECT_NEAR(searched(0.001, 40, seed).second, 0.455, 0.006) << seed;
+  }
+  EXPECT_LT(searched(0.05, 250, 2).first, 250);
+}
+
+// The process's floor hid the last millionth for ever, but where the values' logarithm was taken.
+TEST(ScalarStrategy, AnExactSearchOfABowlEndsByItself) {
+  for (const int d : {1, 2, 3}) {
+    for (const int batch : {1, 2}) {
+      ScalarStrategy strategy({.num_parameters = d}, {.exact = true, .seed = 1});
+      int count = 0;
+      while (count < 100 && !(count > 0 && strategy.WhyStop())) {
+        for (const Proposal& proposal : strategy.Ask(batch, {})) {
+          const double value = (proposal.point.array() - 0.31).square().sum();
+          strategy.Tell({.point = proposal.point, .value = value, .field = {}});
+          ++count;
+        }
+      }
+      EXPECT_LT(count, 100) << d << ' ' << batch;
+      EXPECT_NEAR((strategy.Recommend().point.array() - 0.31).matrix().norm(), 0, 1e-3);
+    }
+  }
+}
+
 }  // namespace scalar_strategy_test
 }  // namespace talus::optimizer

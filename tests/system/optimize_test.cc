@@ -347,5 +347,56 @@ TEST_F(Optimize, AFailureSaysWhatTheCommandSaidLast) {
   EXPECT_THAT(errors_, HasSubstr("was ended by signal 11"));
 }
 
+// Five failures were kept as facts about the parameters, since only eight end a longer search.
+TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllOfAFewHadFailed) {
+  Write("problem.json", "{\"evaluations\": 5, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("ask.sh", "test -e mended && exec " + kCommand + "bowl; exit 3\n");
+  const std::string arguments = "problem.json --out search --quiet -- sh ask.sh";
+  ASSERT_EQ(Talus(arguments), 1);
+  EXPECT_THAT(errors_, HasSubstr("the first 5 evaluations have all failed"));
+  Write("mended", "");
+  ASSERT_EQ(Talus(arguments), 0) << errors_;
+  EXPECT_EQ(json::parse(base::ReadFile(folder_ / "search/result.json"))["failed"], 0);
+}
+
+// The last evaluations of an incomplete batch were made again, since others were asked for.
+TEST_F(Optimize, OtherWorkersGoOnFromTheEvaluationsThereAre) {
+  const auto write = [&](int evaluations, int workers) {
+    Write("problem.json", "{\"evaluations\": " + std::to_string(evaluations) +
+                              ", \"workers\": " + std::to_string(workers) +
+                              ", \"parameters\": " + std::string(kUnitSquare) + "}");
+  };
+  const std::string search = "problem.json --out search --quiet -- " + kCommand + "bowl";
+  write(11, 1);
+  ASSERT_EQ(Talus(search), 0) << errors_;
+  write(16, 4);
+  ASSERT_EQ(Talus(search), 0) << errors_;
+  std::ifstream log(folder_ / "search/evaluations.jsonl");
+  int count = 0;
+  for (std::string line; std::getline(log, line);) {
+    const json evaluation = json::parse(line);
+    const int number = evaluation["evaluation"].get<int>();
+    ++count;
+    EXPECT_EQ(evaluation["asked_after"], number <= 11 ? number - 1 : number <= 15 ? 11 : 15);
+  }
+  EXPECT_EQ(count, 16);
+}
+
+// 60 of its 512 points are all at a = 0, which was then said to lie on a's bound.
+TEST_F(Optimize, AGridBeyondItsEvaluationsIsRefusedAndABoundNeverLeftIsNoNews) {
+  const std::string grid =
+      ", \"strategy\": {\"kind\": \"grid\", \"levels\": [1, 3], "
+      "\"refine_best\": 0}, \"parameters\": " +
+      std::string(kUnitSquare) + "}";
+  Write("problem.json", "{\"evaluations\": 2" + grid);
+  EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "bowl"), 2);
+  EXPECT_THAT(errors_, HasSubstr("strategy.levels: make a grid of 3 points for 2 evaluations"));
+  Write("problem.json", "{\"evaluations\": 3" + grid);
+  ASSERT_EQ(Talus("problem.json --quiet -- " + kCommand + "bowl"), 0) << errors_;
+  const json result = json::parse(out_);
+  EXPECT_TRUE(result["correlation"].is_null());  // no model knows of any
+  EXPECT_TRUE(result["tied"].is_null());
+}
+
 }  // namespace optimize_test
 }  // namespace talus

@@ -63,13 +63,9 @@ class OptimizeLoop {
     return reason ? optimizer::TextOf(*reason) : "";
   }
 
-  // Whole batches of an earlier run. What there is of the next one is taken when it is asked for.
   void TellRecorded() {
     if (!folder_) return;
-    int complete = 0;
-    while (folder_->Recorded(complete + 1)) ++complete;
-    complete = std::min(complete, problem_.evaluations);
-    if (complete < problem_.evaluations) complete -= complete % problem_.workers;
+    const int complete = folder_->NumToTell();
     for (int number = 1; number <= complete; ++number) Tell(*folder_->Recorded(number));
     if (folder_->num_recorded() > 0 && !output_.quiet) {
       const bool is_done = complete == problem_.evaluations;
@@ -80,7 +76,7 @@ class OptimizeLoop {
   }
 
   // From the record of an earlier run, where it has this very point.
-  Evaluated Evaluate(const Eigen::VectorXd& point, int number) {
+  Evaluated Evaluate(const Eigen::VectorXd& point, int number, int asked_after) {
     if (folder_) {
       const auto recorded = folder_->Recorded(number);
       if (recorded && surrogate::SamePoint(recorded->observation.point, point)) return *recorded;
@@ -90,18 +86,19 @@ class OptimizeLoop {
                        processes_->MarkOf(number), [this] { return IsDropped(); });
     if (IsDropped()) throw base::Interrupted("interrupted; the same command goes on");
     const int width = evaluator_.field() == nullptr ? 0 : evaluator_.field()->width;
-    if (folder_) folder_->Record(number, evaluated, width);
+    if (folder_) folder_->Record(number, evaluated, asked_after, width);
     return evaluated;
   }
 
   // Told in the order of asking, whichever ends first, so that a run can be repeated.
   void EvaluateAndTell(const std::vector<optimizer::Proposal>& batch) {
     std::vector<std::future<Evaluated>> running;
+    const int told = num_told();
     for (const optimizer::Proposal& proposal : batch) {
-      const int number = num_told() + static_cast<int>(running.size()) + 1;
-      running.push_back(std::async(std::launch::async, [this, point = proposal.point, number] {
-        return Evaluate(point, number);
-      }));
+      const int number = told + static_cast<int>(running.size()) + 1;
+      running.push_back(std::async(
+          std::launch::async,
+          [this, point = proposal.point, number, told] { return Evaluate(point, number, told); }));
     }
     for (auto& one : running) Await(one, running.size());
     for (auto& one : running) Tell(one.get());

@@ -76,16 +76,16 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
                            ? base::kNoLocks
                            : ": another process works on this search; end it first, or wait"));
   }
-  CheckProblem(command);
-  Load();
+  Load(CheckProblem(command));
   std::filesystem::remove(root_ / kRecommendation);  // of a search that had ended, and goes on
   log_ = Open(root_ / kLog, O_WRONLY | O_APPEND);
 }
 
-void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
+int OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
   const std::filesystem::path path = root_ / kProblem;
   const json now = base::ToJson(problem_);
   const json read = ReadFiles(problem_);
+  int num_before = 0;
   if (std::filesystem::exists(path)) {
     const std::string bytes = base::ReadFile(path);
     const std::optional<std::string> text = base::IfWhole(bytes);
@@ -104,9 +104,11 @@ void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const
                               base::JsonText(before["command"]) +
                               "; give that one, or another folder as --out");
     }
+    num_before = before["problem"].value("evaluations", 0);
   }
   const json both{{"problem", now}, {"read", read}, {"command", command}};
   base::WriteFileAtomically(path, base::WithChecksum(base::JsonText(both, 2) + "\n"));
+  return num_before;
 }
 
 std::filesystem::path OptimizeFolder::ImagePath(int number) const {
@@ -115,7 +117,7 @@ std::filesystem::path OptimizeFolder::ImagePath(int number) const {
 
 // A line that a kill has cut off is no evaluation: it is taken away, and made again. One that was
 // damaged since would be another answer.
-void OptimizeFolder::Load() {
+void OptimizeFolder::Load(int num_before) {
   const std::filesystem::path path = root_ / kLog;
   if (!std::filesystem::exists(path)) return;
   const std::string text = base::ReadFile(path);
@@ -146,14 +148,16 @@ void OptimizeFolder::Load() {
       }
     }
     recorded_.insert_or_assign(number, std::move(evaluated));
+    asked_[number] = {.after = line.value("asked_after", 0), .workers = line.value("workers", 0)};
   }
   std::size_t kept = complete;
   const bool any = std::ranges::any_of(
       recorded_, [](const auto& known) { return !known.second.observation.failed; });
   // The command was wrong, and has been mended since; what failed says nothing of the parameters,
   // now or when the mended one has succeeded.
-  if (!any && recorded_.size() >= static_cast<std::size_t>(kHopeless)) {
+  if (!any && num_recorded() >= std::min(num_before, kHopeless)) {
     recorded_.clear();
+    asked_.clear();
     kept = 0;
   }
   if (kept < text.size()) std::filesystem::resize_file(path, kept);
@@ -172,11 +176,22 @@ std::optional<Evaluated> OptimizeFolder::Recorded(int number) const {
   return found == recorded_.end() ? std::nullopt : std::optional(found->second);
 }
 
-void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_width) {
+int OptimizeFolder::NumToTell() const {
+  int complete = 0;
+  while (complete < problem_.evaluations && recorded_.contains(complete + 1)) ++complete;
+  if (complete == 0 || complete == problem_.evaluations) return complete;
+  const Asking& last = asked_.at(complete);
+  return last.workers == problem_.workers ? last.after : complete;
+}
+
+void OptimizeFolder::Record(int number, const Evaluated& evaluated, int asked_after,
+                            int image_width) {
   const optimizer::Observation& observation = evaluated.observation;
   json line{{"evaluation", number},
             {"parameters", NativeParameters(problem_, observation.point)},
-            {"point", ToList(observation.point)}};
+            {"point", ToList(observation.point)},
+            {"asked_after", asked_after},
+            {"workers", problem_.workers}};
   if (observation.failed) {
     line["failed"] = evaluated.failure;
   } else {

@@ -24,7 +24,10 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
   }
   problems.Within("strategy", [&] {
     strategy.ValidateUse(false, problems);
-    strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(), problems);
+    const auto num_parameters = static_cast<int>(space.Free().size());
+    strategy.ValidateFor(num_parameters, space.IsContinuous(), problems);
+    // Constraints may leave fewer points than the grid has.
+    if (space.constraints.empty()) strategy.ValidateGrid(num_parameters, evaluations, problems);
   });
   problems.Require(evaluations >= 1, "evaluations", evaluations, "must be at least 1");
   problems.RequireFromTo("workers", workers, 1, 8);

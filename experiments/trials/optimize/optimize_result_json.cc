@@ -68,12 +68,14 @@ json OptimizeResult(const OptimizeProblem& problem, const optimizer::Answer& ans
               {"predicted_sd", answer.predicted_sd},
               {"noise_sd", answer.noise_sd},
               {"ranges_90", PerParameter(problem, answer)}};
-  result["correlation"] = json::array();
+  // Without a model nothing is known of them, which is not that there is none.
+  const bool has_model = answer.correlation.size() > 0;
+  result["correlation"] = has_model ? json::array() : json();
   for (const auto row : answer.correlation.rowwise()) {
     result["correlation"].push_back(std::vector<double>(row.begin(), row.end()));
   }
   result["tied_volume"] = answer.tied_volume;
-  result["tied"] = json::array();
+  result["tied"] = has_model ? json::array() : json();
   for (const Eigen::VectorXd& point : answer.tied) {
     result["tied"].push_back(NativeParameters(problem, point));
   }
