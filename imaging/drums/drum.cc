@@ -285,6 +285,11 @@ void ReadTurning(const DrumPhotos& options, MeasuredDrum& drum) {
   drum.turning = slope.value >= 0 ? Turning::kClockwise : Turning::kCounterClockwise;
   drum.angle.value = std::abs(slope.value);
   if (!options.turning || *options.turning == drum.turning) return;
+  if (std::abs(slope.value) <= kClearSlope) {  // next to level: the direction is what was said
+    drum.turning = options.turning;
+    drum.angle.value = -drum.angle.value;
+    return;
+  }
   throw base::ConfigError(options.photos.front().string() + ": the powder is higher on the " +
                           (slope.value >= 0 ? "left" : "right") +
                           ", so that the drum turns the other way than was said; mirror the "

@@ -109,6 +109,17 @@ void RequireWhole(const DrumCircle& circle, const GrayImage& photo, const std::s
                           " px out of the picture; the whole ring must be in it");
 }
 
+// A smaller circle may be something in the drum, or beside it.
+void RequireLarge(const DrumCircle& circle, const GrayImage& photo, const std::string& name) {
+  const int side = std::min(photo.width, photo.height);
+  if (circle.radius >= kSmallestShare * side) return;
+  throw base::ConfigError(name + ": its largest circle is " +
+                          std::to_string(std::lround(2 * circle.radius)) + " px across, of " +
+                          std::to_string(side) +
+                          " px of the picture's shorter side; a drum must be four tenths of it at "
+                          "least: cut the picture down to the drum");
+}
+
 }  // namespace
 
 DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
@@ -125,15 +136,14 @@ DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
     circle = FitCircle(on);
     on = OnCircle(points, circle, tolerance);
   }
-  const bool found = on.size() >= kLeastOn * kNumRays &&
-                     circle.radius >= kSmallestShare * std::min(photo.width, photo.height);
-  if (!found) {
+  if (on.size() < kLeastOn * kNumRays) {
     throw base::ConfigError(name +
                             ": no drum found: no circle around most of the picture's middle; the "
                             "whole ring must be in the picture, near its middle, and differ from "
                             "what is around it");
   }
   RequireWhole(circle, photo, name);
+  RequireLarge(circle, photo, name);
   return circle;
 }
 

@@ -147,17 +147,20 @@ Camera FromTheFront(std::span<const base::Sphere> spheres, int width, double mos
 Camera WholeHeap(std::span<const base::Sphere> spheres, double plate_diameter, int width) {
   constexpr double kElevation = 0.35;  // [rad]
   constexpr double kMargin = 0.06;     // of the plate, each side
-  double top = 0;
   double reach = plate_diameter / 2;
+  double above = reach * std::sin(kElevation);  // of the baseline in the picture [m]
   for (const base::Sphere& s : spheres) {
-    top = std::max(top, s.position.z + s.radius);
-    reach = std::max(reach, std::hypot(s.position.x, s.position.y) + s.radius);
+    const double from_axis = std::hypot(s.position.x, s.position.y);
+    reach = std::max(reach, from_axis + s.radius);
+    // Behind, whichever way the camera turns.
+    above = std::max(
+        above, s.position.z * std::cos(kElevation) + from_axis * std::sin(kElevation) + s.radius);
   }
   Camera camera{.width = width, .plate_diameter = plate_diameter, .elevation = kElevation};
   const double margin = kMargin * plate_diameter;
   camera.pixel_size = 2 * (reach + margin) / width;
   camera.center_x = width / 2.0;
-  const double above = std::max(top * std::cos(kElevation), reach * std::sin(kElevation)) + margin;
+  above += margin;
   const double below = reach * std::sin(kElevation) + margin;
   camera.baseline = above / camera.pixel_size;
   camera.height = static_cast<int>((above + below) / camera.pixel_size + 0.5);

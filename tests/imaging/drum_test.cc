@@ -405,5 +405,32 @@ TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
               AllOf(HasSubstr("drum_darker.png"), HasSubstr("0.5 times as bright")));
 }
 
+// A drum far off was said not to stand in the picture's middle.
+TEST(Drum, ASmallOneIsToBeCutOut) {
+  const GrayImage large = Draw({.angle = 33 * kDegree});
+  constexpr int kFar = 800;
+  GrayImage small{.width = kFar, .height = kFar, .pixels = {}};
+  small.pixels.assign(static_cast<std::size_t>(kFar) * kFar, 170);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      small.at(x + (kFar - kSide) / 2, y + (kFar - kSide) / 2) = large.at(x, y);
+    }
+  }
+  EXPECT_THAT(ErrorOf({.photos = {Write("small", small)}, .diameter = 0.084}),
+              HasSubstr("cut the picture down to the drum"));
+}
+
+// One level within its pixels' scatter was refused for the direction that was said.
+TEST(Drum, ALevelSurfaceTurnsTheWayThatIsSaid) {
+  const fs::path file = Write("level", Draw({.angle = 1 * kDegree}));
+  for (const Turning turning : {Turning::kClockwise, Turning::kCounterClockwise}) {
+    const MeasuredDrum drum =
+        MeasureDrum({.photos = {file}, .diameter = 0.084, .turning = turning});
+    EXPECT_EQ(drum.turning, turning);
+    const double sign = turning == Turning::kClockwise ? 1 : -1;
+    EXPECT_NEAR(drum.angle.value, sign * kDegree, 0.3 * kDegree);  // a pixel over the chord
+  }
+}
+
 }  // namespace drum_test
 }  // namespace talus::imaging

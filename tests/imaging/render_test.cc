@@ -51,8 +51,10 @@ TEST(RenderSpheres, NearerSphereHidesTheOther) {
   EXPECT_NE(RenderSpheres(both, turned).pixels, RenderSpheres(front, turned).pixels);
 }
 
+// The sphere at the back of a column stands higher in the picture than one on the axis.
 TEST(WholeHeap, NothingOfPlateAndHeapIsCutOff) {
-  const std::vector<base::Sphere> heap{{{0, 0, 4e-3}, 1e-3}, {{2.5e-3, 0, 0.5e-3}, 0.5e-3}};
+  const std::vector<base::Sphere> heap{
+      {{0, 0, 4e-3}, 1e-3}, {{2.5e-3, 0, 0.5e-3}, 0.5e-3}, {{0, 2.5e-3, 4e-3}, 0.5e-3}};
   ColorImage image = RenderSpheres(heap, WholeHeap(heap, 6e-3, 200));
   for (int x = 0; x < image.width; ++x) EXPECT_EQ(image.at(x, 0), kWhite);
   for (int y = 0; y < image.height; ++y) {

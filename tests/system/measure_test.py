@@ -82,6 +82,15 @@ class Measure(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn("has a sphere of 0.4 m, which is wider than the plate of 0.01 m; give its unit", done.stderr)
 
+    def test_spheres_are_not_compared_with_a_drum(self):
+        spheres, drum = self.folder / "one.csv", self.folder / "drum"
+        spheres.write_text("x_m,y_m,z_m,diameter_m\n0,0,2e-4,4e-4\n")
+        drum.mkdir()
+        (drum / "drum.json").write_text("{}")
+        done = run(spheres, "--like", drum)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("drum: is a measured drum; spheres are compared with heaps only", done.stderr)
+
     def test_bad_input_ends_with_status_2_names_it_and_writes_nothing(self):
         out = self.folder / "nothing"
         for arguments, named in [

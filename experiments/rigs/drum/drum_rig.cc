@@ -93,12 +93,13 @@ class DrumRig : public RememberingRig<DrumMemory> {
                      "is another than the drum's diameter, rig.diameter");
     if (c.rig.camera) {
       const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
-      problems.Require(c.rig.camera->LastTime() <= measured, "rig.camera",
-                       "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
-                           " s after start_turns, when the drum has ended: its turns take " +
-                           base::ShortNumber(measured) + " s; raise rig.turns to " +
-                           base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
-                           " or more, or take fewer pictures");
+      problems.Require(
+          c.rig.camera->LastTime() <= measured, "rig.camera",
+          "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
+              " s after start_turns, when the drum has ended: its turns take " +
+              base::ShortNumber(measured) + " s; raise rig.turns to " +
+              base::ShortNumber(RoundedUp(drum.turns * c.rig.camera->LastTime() / measured), 3) +
+              " or more, or take fewer pictures");
       const double series = c.rig.camera->LastTime() - c.rig.camera->FirstTime();
       const double turned = drum.speed * drum.diameter / 2 * series;
       problems.Require(c.rig.camera->num_frames() == 1 || turned > kStill * LargestDiameter(c),
@@ -117,6 +118,12 @@ class DrumRig : public RememberingRig<DrumMemory> {
     problems.Require(filled < most, "powder.mass", c.powder.mass,
                      "is too much for the drum: it is filled to six tenths at most, here some " +
                          base::ShortNumber(most_mass, 3) + " g");
+  }
+
+  // To three digits, so that what is advised is taken.
+  static double RoundedUp(double value) {
+    const double digit = std::pow(10, std::floor(std::log10(value)) - 2);
+    return digit * std::ceil(value / digit);
   }
 
   // Few grains from front to back stand looser: 6 % higher where they are a sixth of the drum's

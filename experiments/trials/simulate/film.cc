@@ -110,11 +110,12 @@ void Film::Look(const rigs::RigRun& run) {
     if (tube == nullptr || !IsUpright(*tube) || simulation.IsRemoved(static_cast<int>(i))) continue;
     scene.tubes.push_back(*tube);
   }
+  if (scenes_.empty()) first_ = simulation.time();
   scenes_.push_back(std::move(scene));
   if (IsFull()) {
     for (std::size_t i = 1; 2 * i < scenes_.size(); ++i) scenes_[i] = std::move(scenes_[2 * i]);
     scenes_.resize(scenes_.size() / 2);
-    interval_ = simulation.time() / static_cast<double>(scenes_.size());
+    interval_ = (simulation.time() - first_) / static_cast<double>(scenes_.size());
   }
   next_ = simulation.time() + interval_;
 }

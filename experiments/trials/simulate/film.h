@@ -47,6 +47,7 @@ class Film {
   FilmSize size_;
   double plate_diameter_ = 0;  // 0: none is drawn [m]
   std::vector<Scene> scenes_;
+  double first_ = 0;     // of the first scene; not 0 after a checkpoint [s]
   double next_ = 0;      // when the next frame is due [s]
   double interval_ = 0;  // between two frames; 0: each slice of the simulation [s]
 };

@@ -37,6 +37,12 @@ Profile ReadProfile(const std::filesystem::path& path) {
   const std::filesystem::path png = std::filesystem::is_directory(path) ? path / "aehp.png" : path;
   const std::filesystem::path json = SidecarOf(png);
   if (!std::filesystem::exists(json)) {
+    if (std::filesystem::exists(path / "drum.json")) {
+      throw base::ConfigError(
+          path.string() +
+          ": is a measured drum; spheres are compared with heaps only: give the "
+          "folder of a measured heap");
+    }
     throw base::ConfigError(json.string() + ": is missing, so that the frame of " + png.string() +
                             " is not known; give the folder that `talus measure … --out` wrote");
   }
