@@ -11,18 +11,47 @@
 
 namespace talus::engine {
 
-std::vector<std::string> AdhesionWarnings(const ContactModels& models,
-                                          const std::vector<Material>& materials) {
-  const bool sticky = std::any_of(materials.begin(), materials.end(),
-                                  [](const Material& m) { return m.surface_energy > 0; });
-  if (models.adhesion == Adhesion::kNone && sticky) {
+namespace {
+
+// What of a scene has a surface energy above 0.
+struct Stickiness {
+  bool is_stated = false;  // a material, or what a pair states
+  bool adheres = false;    // a pair that may touch
+};
+
+bool IsSticky(const Material& m) { return m.surface_energy > 0; }
+
+std::vector<std::string> AdhesionTexts(const ContactModels& models, const Stickiness& stickiness) {
+  if (models.adhesion == Adhesion::kNone) {
+    if (!stickiness.is_stated) return {};
     return {"surface_energy is given, but models.adhesion is none: nothing adheres"};
   }
-  if (models.adhesion != Adhesion::kNone && !sticky) {
-    return {"models.adhesion is " + std::string(base::NameOf(models.adhesion)) +
-            ", but no surface_energy is above 0: nothing adheres"};
+  if (stickiness.adheres) return {};
+  return {"models.adhesion is " + std::string(base::NameOf(models.adhesion)) +
+          (stickiness.is_stated
+               ? ", but of no two materials that touch both have a surface_energy above 0"
+               : ", but no surface_energy is above 0") +
+          ": nothing adheres"};
+}
+
+}  // namespace
+
+std::vector<std::string> AdhesionWarnings(const ContactModels& models,
+                                          const std::vector<Material>& materials,
+                                          std::span<const MaterialPair> pairs,
+                                          std::span<const int> of_spheres) {
+  Stickiness stickiness{.is_stated = std::ranges::any_of(materials, IsSticky)};
+  for (const MaterialPair& pair : pairs) {
+    stickiness.is_stated |= pair.stated.surface_energy.value_or(0) > 0;
   }
-  return {};
+  for (const int own : of_spheres) {
+    for (std::size_t other = 0; other < materials.size(); ++other) {
+      const PairProperties both = Joined(materials[static_cast<std::size_t>(own)], materials[other],
+                                         StatedOf(pairs, own, static_cast<int>(other)));
+      stickiness.adheres |= both.surface_energy.value_or(0) > 0;
+    }
+  }
+  return AdhesionTexts(models, stickiness);
 }
 
 namespace {
@@ -59,6 +88,14 @@ Grains GrainsOf(const SceneSpec& spec, const Scene& scene) {
                pour.mass / scene.materials[static_cast<std::size_t>(material)].density);
   }
   return grains;
+}
+
+std::vector<int> MaterialsOfSpheres(const Grains& grains) {
+  std::vector<int> materials;
+  for (std::size_t m = 0; m < grains.smallest.size(); ++m) {
+    if (grains.smallest[m] > 0) materials.push_back(static_cast<int>(m));
+  }
+  return materials;
 }
 
 // What the step does not resolve, as its material's key, and less of what it needs.
@@ -135,11 +172,9 @@ void AddLateEvents(const SceneSpec& spec, double dt, std::vector<std::string>& w
 }  // namespace
 
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
-  std::vector<Material> surfaces = scene.materials;
-  for (const MaterialPair& pair : scene.pairs) {
-    surfaces.push_back(With(scene.materials[pair.first], pair.stated));
-  }
-  std::vector<std::string> warnings = AdhesionWarnings(scene.models, surfaces);
+  const std::vector<int> of_spheres = MaterialsOfSpheres(GrainsOf(spec, scene));
+  std::vector<std::string> warnings =
+      AdhesionWarnings(scene.models, scene.materials, scene.pairs, of_spheres);
   for (std::size_t i = 0; i < spec.fills.size(); ++i) {
     AddLostSizes(spec, spec.fills[i], "fills[" + std::to_string(i) + "]", warnings);
   }

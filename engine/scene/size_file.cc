@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,26 +73,42 @@ double UnitOf(const std::filesystem::path& path, const std::string& title,
                  "column, such as \"diameter (um)\"");
 }
 
+// What one sieve has retained is a class; cumulated from the coarsest down it is what is coarser.
+bool IsRetained(const std::string& title) { return HasAny(title, {"retained"}); }
 bool IsOfCoarser(const std::string& title) {
-  return HasAny(title, {"over", ">", "retained", "coarser"});
+  return HasAny(title, {"over", ">", "coarser"}) || (IsRetained(title) && HasAny(title, {"cum"}));
 }
 bool IsOfFiner(const std::string& title) {
   return !IsOfCoarser(title) &&
-         (HasAny(title, {"under", "cum", "passing", "finer", "<", "sum", "durchgang"}) ||
-          BeginsWithAny(title, {"Q3", "Q0", "below", "less"}));
+         (HasAny(title,
+                 {"under", "cum", "passing", "percentile", "finer", "<", "sum", "durchgang"}) ||
+          HasWord(title, "tile") || BeginsWithAny(title, {"Q3", "Q0", "below", "less"}));
 }
+// Such a column is no curve, however its numbers rise.
+bool IsOfClasses(const std::string& title) {
+  return IsRetained(title) || HasWord(title, "diff") ||
+         BeginsWithAny(title, {"differential", "freq", "density", "class", "channel"});
+}
+// What lies on a sieve is coarser than its mesh.
+bool IsOfSieves(const std::string& title) { return HasAny(title, {"sieve", "mesh", "opening"}); }
 // Per length, or per decade: no share of a class.
 bool IsDensity(const std::string& title) {
   return BeginsWithAny(title, {"q3", "q0"}) && title.find('%') == std::string::npos;
 }
 bool IsOfDiameters(const std::string& title) {
-  const bool is_share = IsOfCoarser(title) ||
+  const bool is_share = IsOfCoarser(title) || IsRetained(title) ||
                         HasAny(title, {"%", "under", "passing", "finer", "durchgang"}) ||
                         BeginsWithAny(title, {"percent", "share", "cum", "Q3", "Q0", "q3", "q0"});
   return !is_share &&
-         (HasAny(title, {"diameter", "particle", "channel", "sieve", "mesh"}) ||
+         (IsOfSieves(title) || HasAny(title, {"diameter", "particle", "channel"}) ||
           HasWord(title, "size") ||
           BeginsWithAny(title, {"x0", "xu", "d ", "x ", "d[", "x[", "d(", "x(", "d/", "x/"}));
+}
+
+[[noreturn]] void RefuseCoarser(const std::filesystem::path& path) {
+  RefuseSizeFile(path,
+                 "has only a cumulative share of what is coarser, or a density q(x); export what "
+                 "is finer, or the share of each class");
 }
 
 struct Columns {
@@ -115,36 +132,49 @@ Columns Find(const std::filesystem::path& path, const SizeTable& table) {
   const auto is_share = [&](const std::string& t) { return &t != &table.titles[columns.diameter]; };
   columns.share = find([&](const std::string& t) { return is_share(t) && IsOfFiner(t); });
   columns.cumulative = columns.share != num_columns;
-  if (!columns.cumulative) {
+  const auto is_of_classes = [&](const std::string& t) {
+    return is_share(t) && !IsOfCoarser(t) && !IsDensity(t);
+  };
+  if (!columns.cumulative) {  // a table of sieves may have their numbers beside their meshes
     columns.share =
-        find([&](const std::string& t) { return is_share(t) && !IsOfCoarser(t) && !IsDensity(t); });
+        find([&](const std::string& t) { return is_of_classes(t) && !IsOfDiameters(t); });
+    if (columns.share == num_columns) columns.share = find(is_of_classes);
   }
-  if (columns.share == num_columns) {
-    RefuseSizeFile(
-        path,
-        "has only a cumulative share of what is coarser, or a density q(x); export what is "
-        "finer, or the share of each class");
-  }
+  if (columns.share == num_columns) RefuseCoarser(path);
   return columns;
 }
 
-// Without a word in the title: a column that never falls and ends at 1 or 100 is cumulative.
-bool LooksCumulative(const std::vector<double>& shares) {
-  return std::is_sorted(shares.begin(), shares.end()) &&
-         (std::abs(shares.back() - 100) < 0.5 || std::abs(shares.back() - 1) < 0.005);
+double SumOf(const std::vector<double>& shares) {
+  return std::accumulate(shares.begin(), shares.end(), 0.0);
+}
+
+// All there is, in percent or as a share.
+bool IsAll(double sum) { return std::abs(sum - 100) < 0.5 || std::abs(sum - 1) < 0.005; }
+
+// Without a word in the title: a column that never falls and ends at 1 or 100 is cumulative, unless
+// its numbers add up to that: then one class holds all.
+bool LooksCumulative(const std::vector<double>& shares, const std::string& title) {
+  return !IsOfClasses(title) && std::is_sorted(shares.begin(), shares.end()) &&
+         IsAll(shares.back()) && !IsAll(SumOf(shares));
+}
+
+// A sum of more than all there is: each share holds those of the coarser sieves.
+bool LooksCumulatedOverSieves(const std::vector<double>& shares, const std::string& title) {
+  constexpr double kMost = 105;  // [%], rounded and weighed as shares are
+  return IsRetained(title) && HasAny(title, {"%", "percent"}) && SumOf(shares) > kMost;
 }
 
 // Edges of the classes that `diameters` stand for.
 std::vector<double> EdgesOf(const std::vector<double>& d, const std::string& title) {
   const std::size_t n = d.size();
-  std::vector<double> edges;
-  if (HasAny(title, {"lower", "low "})) {
-    edges = d;
+  std::vector<double> edges = d;
+  const bool is_upper = HasAny(title, {"upper", "xu", "xo"});
+  if (HasAny(title, {"lower", "low "}) || (IsOfSieves(title) && !is_upper)) {
     edges.push_back(d[n - 1] * d[n - 1] / d[n - 2]);
-  } else if (HasAny(title, {"upper", "xu", "xo"})) {
-    edges = d;
+  } else if (is_upper) {
     edges.insert(edges.begin(), d[0] * d[0] / d[1]);
   } else {  // the classes' middles, on the logarithmic scale of these instruments
+    edges.clear();
     for (std::size_t i = 1; i < n; ++i) edges.push_back(std::sqrt(d[i - 1] * d[i]));
     edges.insert(edges.begin(), d[0] * d[0] / edges.front());
     edges.push_back(d[n - 1] * d[n - 1] / edges.back());
@@ -158,15 +188,65 @@ void Trim(SizeDistribution& sizes) {
   auto& s = sizes.shares;
   const bool classes = sizes.kind == SizeKind::kClasses;
   const auto empty = [&](std::size_t i) { return classes ? s[i] == 0 : s[i + 1] == s[i]; };
+  const std::size_t fewest = classes ? 1 : 2;
   std::size_t num_first = 0;
-  while (s.size() - num_first > 2 && empty(num_first)) ++num_first;
+  while (s.size() - num_first > fewest && empty(num_first)) ++num_first;
   std::size_t num_last = 0;
   const std::size_t before_end = classes ? 1 : 2;
-  while (s.size() - num_first - num_last > 2 && empty(s.size() - num_last - before_end)) ++num_last;
+  while (s.size() - num_first - num_last > fewest && empty(s.size() - num_last - before_end)) {
+    ++num_last;
+  }
   for (auto* list : {&s, &d}) {  // each at once: one by one takes time that grows as the square
     list->resize(list->size() - num_last);
     list->erase(list->begin(), list->begin() + static_cast<std::ptrdiff_t>(num_first));
   }
+}
+
+// Diameters [m] and their shares, the fine end first, and what has passed every sieve.
+struct Points {
+  std::vector<double> diameters;
+  std::vector<double> shares;
+  double in_pan = 0;
+};
+
+Points PointsOf(const std::filesystem::path& path, const SizeTable& table, const Columns& columns,
+                double unit) {
+  const bool has_pan = IsOfSieves(table.titles[columns.diameter]);
+  std::vector<std::pair<double, double>> sorted;  // some instruments list the coarse end first
+  Points points;
+  for (const auto& [row, line] : table.rows) {
+    const double diameter = row.size() > columns.diameter ? row[columns.diameter] : -1;
+    const bool is_pan = has_pan && diameter == 0;
+    if (!(diameter > 0) && !is_pan) continue;
+    const double share = row.size() > columns.share ? row[columns.share] : 0;
+    if (!std::isfinite(share)) {
+      RefuseSizeFile(path, "line " + std::to_string(line) + ": its share is not a number");
+    }
+    if (is_pan) {
+      points.in_pan += share;
+    } else {
+      sorted.emplace_back(diameter * unit, share);
+    }
+  }
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 2) RefuseSizeFile(path, "has less than two diameters above zero");
+  for (const auto& [diameter, share] : sorted) {
+    points.diameters.push_back(diameter);
+    points.shares.push_back(share);
+  }
+  return points;
+}
+
+// Nobody knows how fine the pan's grains are: their class is taken to be as wide as the next one,
+// on a logarithmic scale.
+void SetClasses(Points points, const std::string& title, SizeDistribution& sizes) {
+  sizes.kind = SizeKind::kClasses;
+  sizes.diameters = EdgesOf(points.diameters, title);
+  sizes.shares = std::move(points.shares);
+  if (points.in_pan == 0) return;
+  const auto& d = points.diameters;
+  sizes.diameters.insert(sizes.diameters.begin(), d[0] * d[0] / d[1]);
+  sizes.shares.insert(sizes.shares.begin(), points.in_pan);
 }
 
 }  // namespace
@@ -181,28 +261,16 @@ void ReadSizeText(std::string text, SizeDistribution& sizes) {
   const SizeTable table = ReadSizeTable(text, path);
   const Columns columns = Find(path, table);
   const std::string& title = table.titles[columns.diameter];
-  const double unit = UnitOf(path, title, table.title_line);
-  std::vector<std::pair<double, double>> points;
-  for (const auto& [row, line] : table.rows) {
-    if (row.size() <= columns.diameter || !(row[columns.diameter] > 0)) continue;
-    const double share = row.size() > columns.share ? row[columns.share] : 0;
-    if (!std::isfinite(share)) {
-      RefuseSizeFile(path, "line " + std::to_string(line) + ": its share is not a number");
-    }
-    points.emplace_back(row[columns.diameter] * unit, share);
-  }
-  std::sort(points.begin(), points.end());  // some instruments list the coarse end first
-  if (points.size() < 2) RefuseSizeFile(path, "has less than two diameters above zero");
-  std::vector<double> diameters;
-  sizes.shares.clear();
-  for (const auto& [diameter, share] : points) {
-    diameters.push_back(diameter);
-    sizes.shares.push_back(share);
-  }
-  const bool cumulative = columns.cumulative || LooksCumulative(sizes.shares);
-  sizes.kind = cumulative ? SizeKind::kCumulative : SizeKind::kClasses;
-  sizes.diameters = cumulative ? diameters : EdgesOf(diameters, title);
   const std::string& share_title = table.titles[columns.share];
+  Points points = PointsOf(path, table, columns, UnitOf(path, title, table.title_line));
+  if (columns.cumulative || LooksCumulative(points.shares, share_title)) {
+    sizes.kind = SizeKind::kCumulative;
+    sizes.diameters = std::move(points.diameters);
+    sizes.shares = std::move(points.shares);
+  } else {
+    if (LooksCumulatedOverSieves(points.shares, share_title)) RefuseCoarser(path);
+    SetClasses(std::move(points), title, sizes);
+  }
   if (HasAny(share_title, {"number", "q0", "Q0"})) sizes.by = Weighting::kNumber;
   if (HasAny(share_title, {"volume", "q3", "Q3"})) sizes.by = Weighting::kVolume;
   sizes.file.reset();

@@ -84,6 +84,11 @@ bool IsNone(const std::string& field) {
   return field == "-" || (field.starts_with("<") && std::isfinite(Number(field.substr(1))));
 }
 
+// The size of what has passed every sieve, as tables of sieves write it.
+bool IsPan(const std::string& field) {
+  return field == "pan" || field == "receiver" || field == "bottom" || field == "boden";
+}
+
 char SeparatorOf(std::string_view text) {
   const auto count = [&](char c) { return std::count(text.begin(), text.end(), c); };
   if (count(';') > 0) return ';';
@@ -162,7 +167,8 @@ class TableReader {
   static std::vector<double> NumbersOf(const Row& fields) {
     std::vector<double> numbers;
     for (const std::string& field : fields) {
-      numbers.push_back(!numbers.empty() && IsNone(field) ? 0 : Number(field));
+      const bool is_zero = numbers.empty() ? IsPan(field) : IsNone(field);
+      numbers.push_back(is_zero ? 0 : Number(field));
     }
     return numbers;
   }

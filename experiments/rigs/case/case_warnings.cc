@@ -163,11 +163,8 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
     warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
   warn(ShortStepWarning(c));
-  std::vector<engine::Material> surfaces = MaterialsOf(c);
-  for (const engine::MaterialPair& pair : PairsOf(c)) {
-    surfaces.push_back(engine::With(surfaces.front(), pair.stated));
-  }
-  for (std::string& text : engine::AdhesionWarnings(c.models, surfaces)) {
+  const int grains[] = {kPowder};
+  for (std::string& text : engine::AdhesionWarnings(c.models, MaterialsOf(c), PairsOf(c), grains)) {
     warn(std::move(text));
   }
   if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {

@@ -151,6 +151,23 @@ TEST(SceneRun, WarnsOfAdhesionThatDoesNothing) {
   EXPECT_THAT(messages(1e-5, Adhesion::kJkr), ::testing::IsEmpty());
 }
 
+// The plate's surface energy alone was taken for adhesion, which the geometric mean of (P6) is not.
+TEST(SceneRun, WarnsOfAPlateThatHasTheOnlySurfaceEnergy) {
+  const fs::path file = fs::path(::testing::TempDir()) / "sticky_plate.json";
+  std::ofstream(file) << R"({
+    "materials": [{"name": "powder"}, {"name": "plate", "surface_energy": 1e-4}],
+    "models": {"adhesion": "jkr"},
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, 0.01], "material": "powder"}],
+    "walls": [{"shape": "plane", "material": "plate"}], "stop": {"time": 0.1}})";
+  LoadedScene loaded = LoadScene(file);
+  EXPECT_THAT(SceneWarnings(loaded.spec, loaded.scene),
+              ::testing::ElementsAre(::testing::HasSubstr(
+                  "models.adhesion is jkr, but of no two materials that touch both have a "
+                  "surface_energy above 0: nothing adheres")));
+  loaded.scene.pairs = {{.first = 0, .second = 1, .stated = {.surface_energy = 1e-4}}};
+  EXPECT_THAT(SceneWarnings(loaded.spec, loaded.scene), ::testing::IsEmpty());
+}
+
 // A gate that was to open after the end, and a slip of s for ms, went unseen.
 TEST(SceneRun, WarnsOfWhatIsToHappenAfterTheEnd) {
   const fs::path file = fs::path(::testing::TempDir()) / "late.json";

@@ -165,6 +165,65 @@ TEST(SizeFile, CommasAndMillimetresCoarseEndFirst) {
   EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 1e-3, 1e-8);
 }
 
+// D50 of 450 µm was read as a class of 50 %.
+TEST(SizeFile, PercentilesAreOfWhatIsFiner) {
+  for (const char* title : {"%Tile", "Percentile", "% tile"}) {
+    const SizeDistribution sizes =
+        ReadText(std::string(title) + ",Size(um)\n10,320\n30,400\n50,450\n90,600\n");
+    EXPECT_EQ(sizes.kind, SizeKind::kCumulative) << title;
+    EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 450e-6, 1e-9) << title;
+  }
+}
+
+// What lies on the 0.5 sieve is 0.5 to 0.7 mm, which was taken for 0.45 to 0.59.
+TEST(SizeFile, OnASieveLiesWhatIsCoarserThanItsMesh) {
+  for (const char* titles :
+       {"Sieve size (mm),Weight %", "Mesh (mm),Retained (%)", "Opening (mm),Mass retained (g)"}) {
+    const SizeDistribution sizes =
+        ReadText(std::string(titles) + "\n0.7,0\n0.5,60\n0.4,30\n0.3,10\nPan,0\n");
+    EXPECT_EQ(sizes.shares, (std::vector<double>{10, 30, 60})) << titles;
+    const SizeCurve curve(sizes);
+    EXPECT_NEAR(curve.VolumeQuantile(0.1), 0.4e-3, 1e-8) << titles;
+    EXPECT_NEAR(curve.VolumeQuantile(0.5), 0.5e-3 + 0.2e-3 / 6, 1e-8) << titles;
+    EXPECT_NEAR(curve.VolumeQuantile(0.9), 0.7e-3 - 0.2e-3 / 6, 1e-8) << titles;
+  }
+  EXPECT_EQ(ReadText("Sieve (mm),%\n0.3,0\n0.4,10\n0.5,40\n0.7,100\n").kind, SizeKind::kCumulative);
+}
+
+TEST(SizeFile, ThePanHoldsTheFinestClass) {
+  for (const char* pan : {"0", "Pan"}) {
+    const SizeDistribution sizes =
+        ReadText("Opening (mm),Sieve no.,Retained (g)\n0.8,20,40\n0.4,40,50\n" + std::string(pan) +
+                 ",0,10\n");
+    EXPECT_EQ(sizes.shares, (std::vector<double>{10, 50, 40})) << pan;
+    EXPECT_NEAR(sizes.diameters.front(), 0.2e-3, 1e-12) << pan;
+  }
+}
+
+TEST(SizeFile, WhatAllCoarserSievesRetainedIsNoClass) {
+  const auto error = [](const std::string& text) { return ErrorIn([&] { ReadText(text); }); };
+  for (const char* title : {"Cum. retained (%)", "Retained (%)"}) {
+    EXPECT_THAT(error("Sieve (mm)," + std::string(title) + "\n0.7,0\n0.5,60\n0.4,90\n0.3,100\n"),
+                HasSubstr("has only a cumulative share of what is coarser"))
+        << title;
+  }
+}
+
+// A narrow powder, all in one class, was taken for a curve from 400 to 500 µm.
+TEST(SizeFile, ClassesThatRiseToAHundredAreNoCurve) {
+  for (const char* table :
+       {"Diff. Volume %\n300,0\n400,0\n500,100\n", "Volume %\n300,0\n400,0\n500,100\n",
+        "Frequency\n300,0\n400,0\n500,100\n"}) {
+    const SizeDistribution sizes = ReadText("Size (um)," + std::string(table));
+    EXPECT_EQ(sizes.kind, SizeKind::kClasses) << table;
+    ASSERT_EQ(sizes.diameters.size(), 2u) << table;
+    EXPECT_NEAR(sizes.diameters[0], std::sqrt(400e-6 * 500e-6), 1e-12) << table;
+    EXPECT_NEAR(sizes.diameters[1], 500e-6 * std::sqrt(500.0 / 400), 1e-12) << table;
+  }
+  EXPECT_EQ(ReadText("Size (um),Diff. %\n1,1\n2,30\n3,100\n").kind, SizeKind::kClasses);
+  EXPECT_EQ(ReadText("Size (um),%\n1,1\n2,30\n3,100\n").kind, SizeKind::kCumulative);
+}
+
 // "Undersize" was taken for the diameter, and q3, a density, for Q3.
 TEST(SizeFile, ColumnsAreToldByTheWordsOfTheirTitles) {
   const SizeDistribution undersize = ReadText("Undersize [%],Sieve [mm]\n0,1\n50,2\n100,3\n");

@@ -358,5 +358,13 @@ TEST(Observables, NumbersAreShownInTheUnitsThatPeopleRead) {
   EXPECT_EQ(ShownNumber("tapped_density_kg_per_m3", 1480), "1480 kg/m³");
 }
 
+// An error of 200 % was shown as one of 100 %.
+TEST(Observables, ErrorsAreShownBeyondTheBoundsOfTheirValues) {
+  EXPECT_EQ(ShownNumber("coverage", 1.02), "1");
+  EXPECT_EQ(ShownError("coverage", 2), "2");
+  EXPECT_EQ(ShownError("angle_deg", 120), "120°");
+  EXPECT_EQ(ShownError("mass_fallen_kg", 5.04e-7, 2), "0.5 mg");
+}
+
 }  // namespace rigs_test
 }  // namespace talus::rigs
