@@ -20,7 +20,6 @@
 namespace talus::campaign {
 namespace {
 
-constexpr int kMostReruns = 3;        // of a trial that others keep ending
 constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
 
 [[noreturn]] void StopForDisk(const journal::TrialRecord& trial, const std::string& reason) {
@@ -247,22 +246,16 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
                       " could not be started: " + FailureText(job, folder_.trial(trial.id)) +
                       "; mend this, and `talus resume` goes on with the same trial");
   }
-  if (WasEndedByOthers(job) && RunAgain(trial, job)) return;
+  if (WasEndedByOthers(job) && RunAgain(trial, job.reason)) return;
+  // An earlier process has refused its result and not recorded that: the disk was full, or a number
+  // was missing. A queue still reports that it has ended well.
+  const bool was_refused = job.ok() && !parts_.engine->IsComplete(folder_.trial(trial.id));
+  if (was_refused && RunAgain(trial, "had left a result that was refused")) return;
   if (job.ok()) {
     Collect(trial);
   } else {
     FailOrRetry(trial, FailureText(job, folder_.trial(trial.id)));
   }
-}
-
-bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job) {
-  parts_.runner->Forget(JobOf(trial));  // whose time is counted
-  if (++reruns_[trial.id] > kMostReruns) return false;
-  journal_.AddEvent("rerun", trial.id, job.reason);
-  journal_.Restart({&trial, 1});
-  console_.Line("trial " + std::to_string(trial.id) + " " + job.reason + "; it is run again");
-  waiting_.push_back(trial);
-  return true;
 }
 
 void Campaign::Collect(journal::TrialRecord& trial) {
@@ -280,6 +273,7 @@ void Campaign::Collect(journal::TrialRecord& trial) {
   if (const auto missing = MissingNumber(ReferenceOf(trial), output.scalars)) {
     const bool any = std::ranges::count(planner_.trials(), journal::TrialStatus::kOk,
                                         &journal::TrialRecord::status) > 0;
+    parts_.engine->Forget(folder_.trial(trial.id));  // who resumes may have mended the program
     StopForNumber(trial, *missing, any && spec_.engine.kind == EngineKind::kCommand);
   }
   std::optional<imaging::GrayImage> profile;

@@ -86,7 +86,7 @@ class Campaign {
     return CaseOfTrial(spec_, trial, ReferenceOf(trial).frame());
   }
   void HandleEnd(const runners::FinishedJob& job);
-  bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
+  bool RunAgain(journal::TrialRecord& trial, const std::string& reason);
   void Collect(journal::TrialRecord& trial);
   void SayDoubt(const journal::TrialRecord& trial, const std::string& doubt);
   void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);

@@ -86,6 +86,17 @@ void Campaign::RunFailedAgain() {
   journal_.Reopen(trials);
 }
 
+bool Campaign::RunAgain(journal::TrialRecord& trial, const std::string& reason) {
+  constexpr int kMostReruns = 3;        // where others keep ending it
+  parts_.runner->Forget(JobOf(trial));  // whose time is counted
+  if (++reruns_[trial.id] > kMostReruns) return false;
+  journal_.AddEvent("rerun", trial.id, reason);
+  journal_.Restart({&trial, 1});
+  console_.Line("trial " + std::to_string(trial.id) + " " + reason + "; it is run again");
+  waiting_.push_back(trial);
+  return true;
+}
+
 // Trials become known by their ids, observations are told in the order in which they finished.
 void Campaign::TellFinished() {
   const std::vector<journal::TrialRecord> trials = journal_.Trials();

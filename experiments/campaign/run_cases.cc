@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -46,6 +47,8 @@ void KeepTime(const runners::FinishedJob& job, int num_cores, const fs::path& fo
 
 bool HasMark(const fs::path& folder) { return fs::exists(folder / rigs::kFailedFile); }
 
+void Mark(const fs::path& folder) { base::WriteFileAtomically(folder / rigs::kFailedFile, ""); }
+
 bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
   return HasMark(run.folder) && engine.IsPrepared(run.rig_case, run.folder);
 }
@@ -54,6 +57,26 @@ bool HasFailed(const FolderCase& run, trials::TrialEngine& engine) {
 bool IsFailure(const runners::FinishedJob& job) {
   const bool by_itself = job.end == runners::JobEnd::kExit || job.end == runners::JobEnd::kSignal;
   return by_itself && !WasEndedByOthers(job);
+}
+
+// What a complete case holds. One whose result is refused has failed as one that left none.
+std::optional<trials::TrialOutput> Collect(const FolderCase& run, trials::TrialEngine& engine) {
+  try {
+    return engine.Collect(run.rig_case, run.folder);
+  } catch (const base::Unwritten&) {
+    throw;
+  } catch (const base::Error&) {  // what it left says nothing
+    if (!engine.IsComplete(run.folder)) Mark(run.folder);
+    return std::nullopt;
+  }
+}
+
+// Who is told of a case looks at what it has left, and may find it no good.
+void TellEnd(const CaseRuns& runs, std::size_t index, trials::TrialEngine& engine) {
+  const fs::path folder = runs.at(index).folder;
+  const bool was_complete = engine.IsComplete(folder);
+  runs.has_ended(index);
+  if (was_complete && !engine.IsComplete(folder)) Mark(folder);
 }
 
 // Where none of the cases has succeeded the set-up is wrong, and what mends it need not change the
@@ -67,7 +90,8 @@ class FailuresOfSetUp {
   ~FailuresOfSetUp() {
     try {
       for (std::size_t i = 0; i < runs_.count; ++i) {
-        if (engine_.IsComplete(runs_.at(i).folder)) return;
+        const FolderCase run = runs_.at(i);
+        if (engine_.IsComplete(run.folder) && Collect(run, engine_)) return;
       }
       for (std::size_t i = 0; i < runs_.count; ++i) {
         std::error_code ignored;
@@ -115,11 +139,11 @@ CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine) {
   outcome.has_ended = engine.IsComplete(run.folder) || HasMark(run.folder);
   if (!engine.IsComplete(run.folder)) return outcome;
   try {
-    outcome.output = engine.Collect(run.rig_case, run.folder);
-    // An engine that goes on from a checkpoint says what all attempts took.
-    outcome.core_time = std::max(outcome.core_time, outcome.output->cpu_time);
-  } catch (const base::Error&) {  // what it left says nothing
+    outcome.output = Collect(run, engine);
+  } catch (const base::Unwritten&) {  // a disk that is full
   }
+  // An engine that goes on from a checkpoint says what all attempts took.
+  if (outcome.output) outcome.core_time = std::max(outcome.core_time, outcome.output->cpu_time);
   return outcome;
 }
 
@@ -148,7 +172,7 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       if (engine.IsComplete(run.folder) || !TakeUp(job, run, parts)) {
         engine.Prepare(run.rig_case, run.folder);
         if (engine.IsComplete(run.folder)) {
-          runs.has_ended(next - 1);
+          TellEnd(runs, next - 1, engine);
           continue;
         }
         job.command = engine.Command(run.folder);
@@ -164,10 +188,8 @@ bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
       fs::remove(NoteOf(folder));
       StopIfSetUpFailed(job, folder, engine);
       KeepTime(job, CoresOfTrial(runs.spec), folder);
-      if (IsFailure(job) && !engine.IsComplete(folder)) {
-        base::WriteFileAtomically(folder / rigs::kFailedFile, "");
-      }
-      runs.has_ended(index);
+      if (IsFailure(job) && !engine.IsComplete(folder)) Mark(folder);
+      TellEnd(runs, index, engine);
       --running;
     }
     if (interrupt.Asked() != base::Interrupt::kNone) return false;

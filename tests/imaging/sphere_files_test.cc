@@ -145,6 +145,35 @@ TEST_F(SphereFilesTest, VtkLegacyBinaryIsBigEndian) {
       "\nPOINT_DATA 2\nFIELD FieldData 1\nradius 1 2 double\n" + BigEndian({5e-4, 2.5e-4}) + "\n"));
 }
 
+std::string BigEndianFloats(std::initializer_list<float> values) {
+  std::string bytes;
+  for (const float value : values) {
+    char raw[4];
+    std::memcpy(raw, &value, 4);
+    bytes.append(std::reverse_iterator(raw + 4), std::reverse_iterator(raw));
+  }
+  return bytes;
+}
+
+// Their first values went up to the next byte of ten, and with them the whole file.
+TEST_F(SphereFilesTest, VtkLegacyBinaryScalarsStartAfterTheirLine) {
+  const std::string head =
+      "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS 2 double\n" +
+      BigEndian({1e-3, -2e-3, 3e-3, 0, 1e-3, 2e-3}) + "\nPOINT_DATA 2\n";
+  const std::string types = "SCALARS type double 1\nLOOKUP_TABLE default\n" + BigEndian({1, 2});
+  for (const char* table : {"", "LOOKUP_TABLE default\n"}) {
+    for (const char* width : {"", " 1"}) {
+      ExpectTheTwo(Read(head + types + "\nSCALARS radius double" + width + "\n" + table +
+                        BigEndian({5e-4, 2.5e-4}) + "\n"));
+    }
+    const auto floats = Read(head + types + "\nSCALARS radius float 1\n" + table +
+                             BigEndianFloats({0x1p-10f, 0x1.4p-11f}) + "\n");
+    ASSERT_EQ(floats.size(), 2u);
+    EXPECT_EQ(floats[0].radius, 0x1p-10);
+    EXPECT_EQ(floats[1].radius, 0x1.4p-11);
+  }
+}
+
 constexpr const char* kVtuHead =
     "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\">"
     "<UnstructuredGrid><Piece NumberOfPoints=\"2\" NumberOfCells=\"0\"><PointData>"

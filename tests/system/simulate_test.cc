@@ -69,8 +69,8 @@ class Simulate : public ::testing::Test {
   }
 
   // The status of a run that gets SIGINT in the middle of its lifting.
-  int Interrupted(const std::string& out) {
-    return Run(TALUS_BINARY_DIR "/talus simulate case.json --out " + out +
+  int Interrupted(const std::string& out, const std::string& options = "") {
+    return Run(TALUS_BINARY_DIR "/talus simulate case.json --out " + out + options +
                " & pid=$!; until grep -q settling " + out +
                "/log.txt; do sleep 0.01; done; kill -INT $pid; wait $pid");
   }
@@ -213,6 +213,33 @@ TEST_F(Simulate, AFilmThatACheckpointHasCutIsSaidToBe) {
   EXPECT_THAT(Read("out/log.txt"), HasSubstr("the film begins there"));
   EXPECT_LE(fs::last_write_time(folder_ / "out/film.gif"),
             fs::last_write_time(folder_ / "out/result.json"));
+}
+
+// The checkpoint of hours went for a film that nobody had said would cost it, and a finished result
+// with the film's first second.
+TEST_F(Simulate, AFilmTakesNeitherCheckpointNorResultAway) {
+  Write("case.json", LongCase());
+  EXPECT_EQ(Interrupted("out", " --film heap.gif"), 130) << output_;
+  EXPECT_THAT(output_, HasSubstr("without them it goes on from out/checkpoint.bin"));
+  const std::string checkpoint = Read("out/checkpoint.bin");
+  EXPECT_EQ(Talus("case.json --out out --film heap.gif"), 2) << output_;
+  EXPECT_THAT(output_, HasSubstr("out/checkpoint.bin: would be lost"));
+  EXPECT_TRUE(Read("out/checkpoint.bin") == checkpoint);
+  ASSERT_EQ(Talus("case.json --out out"), 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("goes on from out/checkpoint.bin"));
+  const auto result = Result("out");
+  fs::remove(folder_ / "out/log.txt");
+  EXPECT_EQ(Interrupted("out", " --film heap.gif"), 130) << output_;
+  EXPECT_THAT(output_, HasSubstr("the folder keeps the result that it had"));
+  EXPECT_EQ(Result("out"), result);
+  for (const char* kept : {"out/heap.vtp", "out/profile.png"}) {
+    EXPECT_TRUE(fs::exists(folder_ / kept)) << kept;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out/checkpoint.bin"));
+  EXPECT_EQ(Talus("case.json --out out"), 0);
+  EXPECT_THAT(output_, HasSubstr("is done already"));
+  ASSERT_EQ(Talus("case.json --out out --film heap.gif"), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "heap.gif"));
 }
 
 TEST_F(Simulate, ADamagedCheckpointIsSaidAndNotUsed) {

@@ -72,8 +72,6 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
   rigs::CompleteCase(heap);
   base::Problems problems(file.path.string(), file.places);
   rigs::ValidateCase(heap, problems);
-  problems.Require(heap.frame || heap.rig.kind != rigs::RigKind::kLiftedTube, "frame",
-                   "is missing: the result is measured in it");
   problems.Within("engine", [&] {
     CheckCommand(engine, {.rig_case = heap, .searched = {}, .elsewhere = false}, problems);
   });

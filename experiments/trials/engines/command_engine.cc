@@ -38,7 +38,8 @@ constexpr const char* kMpiLauncher = "mpirun";
 nlohmann::ordered_json ChecksumsOf(const std::vector<fs::path>& files, const fs::path& folder) {
   nlohmann::ordered_json checksums = nlohmann::ordered_json::object();
   for (const fs::path& file : files) {
-    const std::string name = file.lexically_relative(folder).string();
+    const fs::path inside = file.lexically_relative(folder);  // none of a part by another root
+    const std::string name = (inside.empty() ? file : inside).string();
     checksums[name] = base::Hex(base::Checksum(base::ReadFile(file)));
   }
   return checksums;
@@ -205,14 +206,25 @@ bool CommandEngine::HasPrepared(const fs::path& folder) {
   return fs::exists(folder / rigs::kCommandFile);
 }
 
-void CommandEngine::Forget(const fs::path& folder) { fs::remove(folder / rigs::kCommandDone); }
+void CommandEngine::Forget(const fs::path& folder) {
+  std::error_code kept;  // where nothing can be written, nothing can be run again either
+  fs::remove(folder / rigs::kCommandDone, kept);
+}
 
 bool CommandEngine::IsComplete(const fs::path& folder) {
   return fs::exists(folder / rigs::kCommandDone) && IsAsMeasured(folder);
 }
 
 TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& folder) {
-  const Measured measured = MeasureResult(options_, rig_case, folder);
+  Measured measured;
+  try {
+    measured = MeasureResult(options_, rig_case, folder);
+  } catch (const base::Unwritten&) {  // a file of ours: what the command has left may be good
+    throw;
+  } catch (const base::Error&) {  // a full disk may have cut it off, and programs are mended
+    Forget(folder);
+    throw;
+  }
   base::WriteFileAtomically(folder / rigs::kResultFile, ResultText(rig_case, measured, folder),
                             Outlives::kProgram);
   return {.profile = measured.profile,

@@ -26,9 +26,9 @@ class CommandEngine : public TrialEngine {
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   // Whether a command has been prepared there.
   static bool HasPrepared(const std::filesystem::path& folder);
-  // From now on what the command has left there does not count.
-  static void Forget(const std::filesystem::path& folder);
   bool IsComplete(const std::filesystem::path& folder) override;
+  void Forget(const std::filesystem::path& folder) override;
+  // What is refused is forgotten.
   TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::optional<std::string> WhyNotTaken(const rigs::Case& rig_case,
                                          const std::filesystem::path& from) override;

@@ -1,6 +1,7 @@
 #include "experiments/trials/engines/command_measure.h"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "experiments/trials/engines/tube_numbers.h"
 #include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::trials {
@@ -107,8 +109,9 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
 std::optional<fs::path> FormerlyMeasured(const CommandOptions& options, const fs::path& folder) {
   if (!fs::exists(folder / rigs::kResultFile)) return std::nullopt;
   const auto result =
-      nlohmann::json::parse(base::ReadFile(folder / rigs::kResultFile), nullptr, false);
+      nlohmann::ordered_json::parse(base::ReadFile(folder / rigs::kResultFile), nullptr, false);
   if (!result.is_object() || !result.contains("measured")) return std::nullopt;
+  // Its parts, which may have a name of a result too, follow after it.
   for (const auto& [name, checksum] : result["measured"].items()) {
     if (IsResultName(options, name) && fs::exists(folder / name)) return folder / name;
   }
@@ -139,7 +142,7 @@ fs::path FindMeasurable(const CommandOptions& options, const rigs::Case& rig_cas
 
 // Numbers beside a result in a subfolder would be taken for read.
 void RequireNoneBeside(const CommandOptions& options, const fs::path& folder) {
-  const fs::path place = fs::path(options.result).parent_path();
+  const fs::path place = options.ResultPath().parent_path();
   if (place.empty()) return;
   const fs::path file = ScalarFile(folder / place);
   if (file.empty()) return;
@@ -160,6 +163,7 @@ Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case
     measured = file.extension() == ".png" ? MeasureImage(rig_case, file, folder)
                                           : MeasureSpheres(options, rig_case, file, folder);
     measured.files.push_back(file);
+    std::ranges::copy(imaging::PartsOf(file), std::back_inserter(measured.files));
   }
   if (!given.empty()) measured.files.push_back(ScalarFile(folder));
   RequireNoneBeside(options, folder);

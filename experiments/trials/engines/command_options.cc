@@ -16,16 +16,22 @@ bool IsInside(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::filesystem::path CommandOptions::ResultPath() const {
+  return std::filesystem::path(result).lexically_normal();
+}
+
 void CommandOptions::Validate(base::Problems& problems) const {
   problems.Require(templates.has_value(), "templates",
                    "is missing: the folder of the engine's input files");
   problems.Require(!command.empty() && !command.front().empty(), "command",
                    "must name a program and its arguments, such as [\"liggghts\", \"-in\", "
                    "\"in.heap\"]");
-  problems.Require(IsInside(result), "result",
+  problems.Require(IsInside(result) && IsInside(ResultPath()), "result",
                    "must be a file in the trial's folder, such as \"heap.*\"");
+  const std::string pattern = ResultPath();
   for (const std::string_view own : rigs::kNeverAResult) {
-    problems.Require(::fnmatch(result.c_str(), std::string(own).c_str(), FNM_PERIOD) != 0, "result",
+    problems.Require(::fnmatch(pattern.c_str(), std::string(own).c_str(), FNM_PERIOD) != 0,
+                     "result",
                      "fits " + std::string(own) +
                          ", which talus itself writes there; name the result more closely, such as "
                          "\"heap.*\"");

@@ -47,6 +47,7 @@ struct CommandOptions {
           {.doc = "filled in by the program, so that changed templates are noticed"});
   }
   void Validate(base::Problems& problems) const;
+  std::filesystem::path ResultPath() const;  // `result`, where "./heap.*" is "heap.*"
   bool operator==(const CommandOptions&) const = default;
 };
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "experiments/rigs/case/run_files.h"
 #include "experiments/trials/engines/command_case.h"
+#include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/engines/trial_engine.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"
@@ -21,15 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& folder) {
-  const fs::path pattern = folder / engine.result;
-  const std::string name = pattern.filename();
+  const fs::path place = engine.ResultPath().parent_path();
   std::vector<fs::path> matches;
   std::error_code absent;
-  for (const auto& entry : fs::directory_iterator(pattern.parent_path(), absent)) {
-    const std::string candidate = entry.path().filename();
+  for (const auto& entry : fs::directory_iterator(folder / place, absent)) {
+    const fs::path name = entry.path().filename();
     // LIGGGHTS writes one beside each file of its dump custom/vtk.
-    if (candidate.find("_boundingBox") != std::string::npos) continue;
-    if (entry.is_regular_file() && ::fnmatch(name.c_str(), candidate.c_str(), FNM_PERIOD) == 0) {
+    if (name.string().find("_boundingBox") != std::string::npos) continue;
+    if (entry.is_regular_file() && IsResultName(engine, place / name)) {
       matches.push_back(entry.path());
     }
   }
@@ -99,6 +99,28 @@ bool IsOld(const fs::path& file, const fs::path& folder, const fs::path& started
   return Seconds(result.st_mtim) < Seconds(start.st_mtim) && (was_copied || !LiesIn(file, folder));
 }
 
+// The parts of a former result that lie in the trial's folder.
+std::vector<fs::path> PartsIn(const fs::path& folder, const fs::path& file) {
+  try {
+    std::vector<fs::path> parts = imaging::PartsOf(file);
+    std::erase_if(parts, [&](const fs::path& part) {
+      return !part.extension().string().starts_with(".vt") || !LiesIn(part, folder);
+    });
+    return parts;
+  } catch (const base::Error&) {
+    return {};  // of a file that an attempt without an end has left
+  }
+}
+
+// They are of the result as its own file is.
+void RequireFreshParts(const fs::path& file, const fs::path& folder, const fs::path& started) {
+  for (const fs::path& part : imaging::PartsOf(file)) {
+    if (!IsOld(part, folder, started)) continue;
+    throw base::Error("left " + file.filename().string() + ", whose part " +
+                      part.filename().string() + " is older than the trial");
+  }
+}
+
 std::string Digits(const std::string& text, std::size_t start) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789", start), text.size());
   const std::size_t first = std::min(text.find_first_not_of('0', start), end);
@@ -137,6 +159,7 @@ fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const 
   }
   if (!matches.empty()) {
     RequireLast(matches);
+    RequireFreshParts(matches.back(), folder, started);
     return matches.back();
   }
   const std::string log = LastLogLines(folder);
@@ -146,13 +169,16 @@ fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const 
 }
 
 bool IsResultName(const CommandOptions& engine, const fs::path& name) {
-  const fs::path pattern(engine.result);
-  return name.parent_path() == pattern.parent_path() &&
+  const fs::path pattern = engine.ResultPath();
+  return !IsScalarName(name) && name.parent_path() == pattern.parent_path() &&
          ::fnmatch(pattern.filename().c_str(), name.filename().c_str(), FNM_PERIOD) == 0;
 }
 
 void RemoveResults(const CommandOptions& engine, const fs::path& folder) {
-  for (const fs::path& path : Matches(engine, folder)) fs::remove(path);
+  for (const fs::path& path : Matches(engine, folder)) {
+    for (const fs::path& part : PartsIn(folder, path)) fs::remove(part);
+    fs::remove(path);
+  }
 }
 
 void RemoveFormer(const fs::path& folder) {

@@ -44,8 +44,12 @@ class TrialEngine {
   // Whether the command has ended well here, in this or an earlier process: it need not run again.
   virtual bool IsComplete(const std::filesystem::path& folder) = 0;
 
+  // From now on what an outside command has left there does not count: it need run again. What our
+  // own engine leaves follows from its case, and stays.
+  virtual void Forget(const std::filesystem::path&) {}
+
   // What a complete folder holds. Throws base::Error with the reason when it is no good: the trial
-  // has failed then.
+  // has failed then, and the folder need no longer be complete.
   virtual TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
 
   // Why what is in the complete folder `from` cannot be this case's, drawn in its frame:

@@ -75,20 +75,24 @@ struct Started {
   bool goes_on = false;
 };
 
-Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
+Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options, bool is_done) {
   const fs::path path = options.folder / kCheckpoint;
   std::string message;
-  if (!options.fresh && fs::exists(path)) {
+  if (!options.fresh && !is_done && fs::exists(path)) {
     try {
       const engine::RunCheckpoint checkpoint =
           engine::Unpack(base::ReadFile(path, engine::kLargestCheckpoint));
       if (checkpoint.input_hash != job.input_hash) RefuseFolder(options.folder, "checkpoint");
-      if (!job.from_start) {
-        return {.run = job.go_on(checkpoint),
-                .earlier = checkpoint.timing,
-                .message = "goes on from " + path.string(),
-                .goes_on = true};
+      if (job.from_start) {
+        throw base::ConfigError(path.string() +
+                                ": would be lost, as a film begins with the filling; leave out "
+                                "--film to go on from it, or choose another --out, or --fresh to "
+                                "begin anew");
       }
+      return {.run = job.go_on(checkpoint),
+              .earlier = checkpoint.timing,
+              .message = "goes on from " + path.string(),
+              .goes_on = true};
     } catch (const base::ConfigError&) {
       throw;
     } catch (const base::Error& error) {  // the result is the same, only later
@@ -151,12 +155,15 @@ void RemoveFormer(const RunJob& job, const fs::path& folder, bool anew) {
   for (const fs::path& file : former) fs::remove(file);
 }
 
-void PrepareFolder(const RunJob& job, const fs::path& folder, bool anew) {
-  RemoveFormer(job, folder, anew);
+// What there is of a former result while a run simulates.
+enum class Former { kGone, kGoneOn, kKept };
+
+void PrepareFolder(const RunJob& job, const fs::path& folder, Former former) {
+  RemoveFormer(job, folder, former == Former::kGone);
   base::WriteFileAtomically(folder / ".talus", std::string(kCommand) + "\n",
                             base::Outlives::kProgram);
   std::error_code absent;
-  fs::remove(folder / rigs::kResultFile, absent);
+  if (former != Former::kKept) fs::remove(folder / rigs::kResultFile, absent);
   const fs::path input = folder / job.input_name;
   const bool same = fs::equivalent(input, job.source, absent);  // the user's own is left as it is
   if (!same) base::WriteFileAtomically(input, job.input);
@@ -180,12 +187,25 @@ void Report(engine::Run& run, RunLog& log) {
   for (const std::string& message : run.TakeMessages()) log.Line(message);
 }
 
-// Slices until the end, with checkpoints in between.
-void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Stopwatch& watch,
-          RunLog& log) {
+std::string InterruptedText(const RunJob& job, const fs::path& checkpoint, Former former) {
+  if (former == Former::kKept) {
+    return "interrupted; the folder keeps the result that it had, and the same command begins the "
+           "film anew";
+  }
+  if (!job.from_start) return "interrupted; the same command goes on from " + checkpoint.string();
+  return "interrupted; with --film and --fresh the same command begins anew, without them it goes "
+         "on from " +
+         checkpoint.string();
+}
+
+// Slices until the end, with checkpoints in between; none beside a result that is kept.
+void Loop(const RunJob& job, engine::Run& run, const RunFolderOptions& options,
+          const Stopwatch& watch, RunLog& log, Former former) {
+  const fs::path checkpoint = options.folder / kCheckpoint;
   const base::InterruptGuard interrupt;
   const auto save = [&] {
-    base::WriteFileAtomically(folder / kCheckpoint, run.Checkpoint(watch.Total()));
+    if (former == Former::kKept) return;
+    base::WriteFileAtomically(checkpoint, run.Checkpoint(watch.Total()));
   };
   double saved = 0;
   job.look(run);
@@ -195,8 +215,7 @@ void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Sto
     log.Progress(run.Progress());
     if (interrupt.Asked() != base::Interrupt::kNone) {
       save();
-      throw base::Interrupted("interrupted; the same command goes on from " +
-                              (folder / kCheckpoint).string());
+      throw base::Interrupted(InterruptedText(job, checkpoint, former));
     }
     if (job.checkpoint_interval > 0 && watch.Elapsed() - saved > job.checkpoint_interval) {
       save();
@@ -223,18 +242,20 @@ void DriveRun(const RunJob& job, const RunFolderOptions& options) {
   RequireOwnFolder(job, folder);
   base::MakeOutputFolder(folder);
   const RunLock lock(folder);
-  if (!options.fresh && IsDone(job, folder) && !job.from_start) {
+  const bool is_done = !options.fresh && IsDone(job, folder);
+  if (is_done && !job.from_start) {
     RunLog(folder, options.quiet).Line(folder.string() + ": is done already");
     return;
   }
-  Started started = StartOrGoOn(job, options);
-  PrepareFolder(job, folder, !started.goes_on);
+  Started started = StartOrGoOn(job, options, is_done);
+  const Former former = is_done ? Former::kKept : started.goes_on ? Former::kGoneOn : Former::kGone;
+  PrepareFolder(job, folder, former);
   RunLog log(folder, options.quiet);
   const Stopwatch watch(started.earlier);
   if (!started.message.empty()) log.Line(started.message);
   if (started.goes_on && !job.lost_at_checkpoint.empty()) log.Line(job.lost_at_checkpoint);
   try {
-    Loop(job, *started.run, folder, watch, log);
+    Loop(job, *started.run, options, watch, log, former);
     job.write();
     started.run->WriteResults(watch.Total());
   } catch (const base::Interrupted&) {

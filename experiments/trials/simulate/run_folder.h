@@ -1,7 +1,8 @@
 // Drives a run in its folder to the end: progress, checkpoints, interruption, results.
 //
 // A folder holds one input's run, by one process at a time. Its checkpoint is gone on from; its
-// result is kept. What a run that begins anew finds of an earlier one goes.
+// result is kept. What a run that begins anew finds of an earlier one goes; a film of a finished
+// run leaves its result there until it has its own.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,8 @@ struct RunJob {
   std::function<void()> write = [] {};
   // What a run that goes on from a checkpoint lacks; empty if nothing.
   std::string lost_at_checkpoint{};
-  bool from_start = false;  // what it shows begins there: neither result nor checkpoint will do
+  // What it shows begins there: a result will not do, and a checkpoint is not given up for it.
+  bool from_start = false;
 };
 
 struct RunFolderOptions {

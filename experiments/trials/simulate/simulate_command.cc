@@ -105,7 +105,7 @@ void SimulateCommandCase(const CommandCase& command_case, const CommandFolderOpt
   CommandEngine engine(command_case.engine, FormerFiles::kKeep);
   base::MakeOutputFolder(folder);
   const RunLock lock(folder);
-  if (options.fresh) CommandEngine::Forget(folder);
+  if (options.fresh) engine.Forget(folder);
   engine.Prepare(command_case.heap, folder);
   const bool was_complete = engine.IsComplete(folder);
   TrialOutput output;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <string>
 
 #include "base/error.h"
@@ -14,6 +15,8 @@ namespace talus::imaging {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kHead = 4096;  // bytes that tell what a file is
 
 // Together they are bounded as one file is: a part can be named many times.
 void CheckSizeOfParts(const fs::path& path, const std::vector<fs::path>& parts) {
@@ -48,7 +51,7 @@ std::vector<base::Sphere> ReadParts(const fs::path& path, const std::vector<fs::
 std::vector<base::Sphere> Parse(const fs::path& path, std::string_view text,
                                 const SphereFileOptions& options) {
   const std::string file = path.string();
-  const std::string_view start = Trimmed(text.substr(0, 4096));
+  const std::string_view start = Trimmed(text.substr(0, kHead));
   const double unit = options.length_unit.value_or(1);
   if (start.empty()) throw base::ConfigError(file + ": is empty");
   if (start.starts_with("ITEM:")) return ReadDump(text, file, options);
@@ -80,6 +83,21 @@ std::vector<base::Sphere> ReadSpheres(const fs::path& path, const SphereFileOpti
                             " has a position that is not finite or a radius that is not positive");
   }
   return spheres;
+}
+
+std::vector<fs::path> PartsOf(const fs::path& path) {
+  std::string head(kHead, '\0');  // others may be large
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const bool names_parts = head.find("\"PPolyData\"") != std::string::npos ||
+                           head.find("\"PUnstructuredGrid\"") != std::string::npos;
+  if (!names_parts || !Trimmed(head).starts_with('<')) return {};
+  std::vector<fs::path> parts;
+  for (const fs::path& part : ReadVtkXml(base::ReadFile(path), path.string()).parts) {
+    parts.push_back(path.parent_path() / part);
+  }
+  return parts;
 }
 
 }  // namespace talus::imaging

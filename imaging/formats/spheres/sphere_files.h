@@ -29,4 +29,8 @@ struct SphereFileOptions {
 std::vector<base::Sphere> ReadSpheres(const std::filesystem::path& path,
                                       const SphereFileOptions& options = {});
 
+// The files that a PVTP or PVTU file names, by their paths; of any other file none. Throws
+// ConfigError where it cannot be read.
+std::vector<std::filesystem::path> PartsOf(const std::filesystem::path& path);
+
 }  // namespace talus::imaging

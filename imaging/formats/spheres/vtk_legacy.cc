@@ -131,8 +131,9 @@ class LegacyReader {
     } else {
       cursor_.Seek(start);
     }
-    Keep(name, static_cast<std::size_t>(components), num_tuples_,
-         Values(std::string(words[0]), Product(static_cast<std::size_t>(components), num_tuples_)));
+    const auto width = static_cast<std::size_t>(components);
+    Keep(name, width, num_tuples_,
+         ValuesFromHere(std::string(words[0]), Product(width, num_tuples_)));
   }
 
   void SkipTuples(std::size_t components) {
@@ -184,13 +185,18 @@ class LegacyReader {
   }
 
   std::vector<double> Values(const std::string& type, std::size_t count) {
+    // The bytes start after the end of the line that names them.
+    if (binary_) cursor_.Line();
+    return ValuesFromHere(type, count);
+  }
+
+  std::vector<double> ValuesFromHere(const std::string& type, std::size_t count) {
     const std::optional<VtkType> known = VtkTypeOf(type);
     if (!known) cursor_.Fail("\"" + type.substr(0, 40) + "\" is not a type of VTK that is read");
     if (count > cursor_.Left())
       cursor_.Fail(
           "the file ends too early for what it names; was it cut off while it was written?");
     if (binary_) {
-      cursor_.Line();  // the bytes start after the end of the line that names them
       return Decode(*known, cursor_.Bytes(count * SizeOf(*known)), std::endian::big);
     }
     std::vector<double> values;

@@ -136,5 +136,82 @@ TEST_F(FailedCasesTest, WhereAllFailTheSetUpIsWrongAndTheyAreMadeAgain) {
   EXPECT_ANY_THROW(Run({0.2, 0.25}, false));
 }
 
+// Its commands end well whatever they leave; below 0.3 that is no heap.
+class RefusingEngine : public FakeEngine {
+ public:
+  using FakeEngine::FakeEngine;
+  void Forget(const fs::path& folder) override { fs::remove(folder / "profile.png"); }
+  trials::TrialOutput Collect(const rigs::Case& rig_case, const fs::path& folder) override {
+    if (rig_case.powder.material.sliding_friction >= 0.3) {
+      return FakeEngine::Collect(rig_case, folder);
+    }
+    Forget(folder);
+    throw base::Error("left no heap");
+  }
+};
+
+class RefusedCasesTest : public CampaignFixture {
+ protected:
+  FolderCase At(std::size_t i) const {
+    FolderCase run{.folder = folder_ / "beside" / std::to_string(i + 1),
+                   .rig_case = TypicalCase(ReadJointView(folder_).spec, 0, 1)};
+    run.rig_case.powder.material.sliding_friction = frictions_[i];
+    return run;
+  }
+  // With or without somebody who looks at each case as soon as it has ended.
+  void Run(bool has_program, bool looks) {
+    const JointView view = ReadJointView(folder_);
+    const CampaignParts parts{
+        .runner = MakeDrawnRunner(view.spec, folder_),
+        .engine = std::make_unique<RefusingEngine>(FakeEngineOptions{.no_command = !has_program})};
+    CaseRuns runs{
+        .spec = view.spec, .count = frictions_.size(), .at = [&](std::size_t i) { return At(i); }};
+    if (looks) {
+      runs.has_ended = [&](std::size_t i) {
+        try {
+          if (parts.engine->IsComplete(At(i).folder)) {
+            parts.engine->Collect(At(i).rig_case, At(i).folder);
+          }
+        } catch (const base::Error&) {
+        }
+      };
+    }
+    RunCases(runs, parts);
+  }
+  CaseOutcome Outcome(std::size_t i) const {
+    RefusingEngine engine{{}};
+    return OutcomeOf(At(i), engine);
+  }
+
+  std::vector<double> frictions_;
+  fs::path folder_ = Begin(R"(, "budget": {"simulations": 4}, "workers": 1)");
+};
+
+// Beside others it has failed as one that left nothing: neither call makes it again.
+TEST_F(RefusedCasesTest, ARefusedResultIsAFailure) {
+  for (const bool looks : {false, true}) {
+    fs::remove_all(folder_ / "beside");
+    frictions_ = {0.5, 0.2};
+    Run(true, looks);
+    EXPECT_TRUE(Outcome(0).output);
+    for (int look = 0; look < 2; ++look) {
+      EXPECT_TRUE(Outcome(1).has_ended);
+      EXPECT_FALSE(Outcome(1).output);
+    }
+    EXPECT_NO_THROW(Run(false, looks));  // whatever it had to run would stop it
+  }
+}
+
+// A mended program was never asked again, as its former ends counted as success.
+TEST_F(RefusedCasesTest, WhereAllAreRefusedTheyAreMadeAgain) {
+  for (const bool looks : {false, true}) {
+    fs::remove_all(folder_ / "beside");
+    frictions_ = {0.2, 0.25};
+    Run(true, looks);
+    EXPECT_FALSE(Outcome(0).has_ended);
+    EXPECT_ANY_THROW(Run(false, looks));
+  }
+}
+
 }  // namespace run_cases_test
 }  // namespace talus::campaign

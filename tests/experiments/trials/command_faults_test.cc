@@ -11,6 +11,7 @@
 #include "base/text/number_text.h"
 #include "engine/run/state_file.h"
 #include "experiments/trials/engines/command_case.h"
+#include "experiments/trials/engines/command_measure.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/simulate/run_lock.h"
@@ -243,6 +244,94 @@ TEST_F(CommandFaultsTest, OfNumbersOnlyTheirFilesAreNamedWhereTheyAreMissing) {
   const std::string failure = FailureOf([&] { Run(rig_case); });
   EXPECT_THAT(failure, HasSubstr("left neither scalars.json nor scalars.csv"));
   EXPECT_THAT(failure, HasSubstr("its log ends with: finished"));
+}
+
+// The end of the command alone counted: a mended program was never asked again.
+TEST_F(CommandFaultsTest, ACommandWhoseResultWasRefusedIsRunAgain) {
+  Deck("run.sh", "echo run >>../runs; sh ../program\n");
+  std::ofstream(root_ / "program") << "touch heap.csv\n";
+  EXPECT_THAT(FailureOf(), HasSubstr("heap.csv: is empty"));
+  EXPECT_FALSE(CommandEngine(options_).IsComplete(root_ / "trial"));
+  std::ofstream(root_ / "program") << "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n";
+  EXPECT_EQ(FailureOf(), "");
+  EXPECT_EQ(FailureOf(), "");
+  EXPECT_EQ(Text("runs"), "run\nrun\n");
+}
+
+// Where a file of ours cannot be written, what the command has left may be good.
+TEST_F(CommandFaultsTest, ACommandWhoseProfileCannotBeWrittenIsNotRunAgain) {
+  Deck("run.sh",
+       "echo run >>../runs; mkdir profile.png; printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  CommandEngine engine(options_);
+  EXPECT_THAT(FailureOf(), HasSubstr("cannot be written"));
+  EXPECT_TRUE(engine.IsComplete(root_ / "trial"));
+  fs::remove(root_ / "trial/profile.png");
+  EXPECT_EQ(FailureOf(), "");
+  EXPECT_EQ(Text("runs"), "run\n");
+}
+
+// "./" before it switched off both what no result may be called and the check of the templates.
+TEST_F(CommandFaultsTest, AResultIsTheSameByWhateverPath) {
+  Deck("run.sh", "cp old.csv heap.csv\n");
+  Deck("heap.csv", "x,y,z,r\n0,0,1e-3,1e-3\n");
+  options_.result = "./heap.*";
+  EXPECT_THAT(CheckErrors(), HasSubstr("fits \"./heap.*\", so that it would be taken"));
+  fs::rename(root_ / "deck/heap.csv", root_ / "deck/old.csv");
+  EXPECT_EQ(CheckErrors(), "");
+  EXPECT_EQ(FailureOf(), "");
+  options_.result = "./case.json";
+  base::Problems problems("spec.json", {});
+  options_.Validate(problems);
+  EXPECT_THAT(problems.Text(), HasSubstr("fits case.json, which talus itself writes there"));
+}
+
+// Both were taken for the result, of which the last by name is the numbers.
+TEST_F(CommandFaultsTest, TheFileOfTheNumbersIsNoResult) {
+  Deck("run.sh",
+       "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv; echo 'mass_fallen_kg,7e-6' >scalars.csv\n");
+  options_.result = "*.csv";
+  EXPECT_EQ(FailureOf(), "");
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"mass_fallen_kg\": 7e-06"));
+}
+
+// A campaign with numbers only writes such a case for each of its trials.
+TEST_F(CommandFaultsTest, ALiftedTubeNeedsNoFrameForItsNumbers) {
+  Deck("run.sh", "printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  rigs::Case rig_case = SmallCase();
+  rig_case.frame.reset();
+  std::ofstream(root_ / "case.json") << CaseText({.heap = rig_case, .engine = options_});
+  const CommandCase loaded = LoadCommandCase(base::ReadJsonFile(root_ / "case.json"));
+  SimulateCommandCase(loaded, {.folder = root_ / "trial", .quiet = true});
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"height_m\": 0.002"));
+}
+
+// Only the list of them was, so that a damaged or a former part went unnoticed.
+TEST_F(CommandFaultsTest, PartsOfAResultAreMeasuredWithIt) {
+  const std::string part =
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData><DataArray "
+      "type=\"Float64\" Name=\"radius\" format=\"ascii\">1e-3</DataArray></PointData><Points>"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 1e-3</DataArray>"
+      "</Points></Piece></PolyData></VTKFile>";
+  Deck("part", part);
+  Deck("list",
+       "<VTKFile type=\"PPolyData\"><PPolyData><Piece "
+       "Source=\"heap.0.vtp\"/></PPolyData></VTKFile>");
+  options_.result = "heap.p*";
+  const std::string run = "cp list heap.pvtp; cp part heap.0.vtp\n";
+  Deck("run.sh", run + "touch -d 2001-01-01 heap.0.vtp\n");
+  EXPECT_THAT(FailureOf(), HasSubstr("left heap.pvtp, whose part heap.0.vtp is older"));
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", run);
+  EXPECT_EQ(FailureOf(), "");
+  const fs::path folder = root_ / "trial";
+  CommandEngine engine(options_);
+  EXPECT_TRUE(engine.IsComplete(folder));
+  std::ofstream(folder / "heap.0.vtp") << part << "\n";
+  EXPECT_FALSE(engine.IsComplete(folder));
+  options_.result = "heap.*";  // the list stays the result among its parts
+  EXPECT_EQ(ResultOf(options_, folder).filename(), "heap.pvtp");
+  RemoveResults(options_, folder);
+  EXPECT_FALSE(fs::exists(folder / "heap.0.vtp"));
 }
 
 }  // namespace command_faults_test
