@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/error.h"
@@ -137,12 +138,16 @@ void AskForPhotographs(InitArguments& arguments) {
   }
 }
 
+// That of the photographs' folder, in which a dot may stand: "Ti64_v1.2".
 std::string NameOf(const InitArguments& arguments) {
   if (!arguments.answers.name.empty()) return arguments.answers.name;
   if (arguments.photos.empty()) return arguments.out.stem().string();
   const auto path = std::filesystem::absolute(arguments.photos.front()).lexically_normal();
   const bool ends_with_slash = path.filename().empty();
-  return (ends_with_slash ? path.parent_path() : path).stem().string();
+  std::error_code unread;  // what cannot be looked at is refused with the photographs
+  const bool is_folder = !ends_with_slash && std::filesystem::is_directory(path, unread);
+  const std::string name = (is_folder ? path : path.parent_path()).filename().string();
+  return name.empty() ? arguments.out.stem().string() : name;
 }
 
 std::string CheckedSpec(const campaign::SpecAnswers& answers, const std::filesystem::path& out) {

@@ -50,7 +50,7 @@ void PrintExperiment(const journal::ExperimentRecord& e, const campaign::Experim
   if (e.noise_mm2) std::cout << ", noise floor " << base::ShortNumber(*e.noise_mm2) << " mm²";
   for (const journal::ScalarRecord& s : e.scalars) {
     std::cout << ", " << rigs::SpokenName(s.name) << " " << rigs::ShownNumber(s.name, s.value)
-              << " ± " << rigs::ShownNumber(s.name, s.standard_error);
+              << " ± " << rigs::ShownError(s.name, s.standard_error);
   }
   std::cout << '\n';
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -10,6 +11,7 @@
 #include "base/problems.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/units.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/spec/parameter_names.h"
 #include "experiments/campaign/start.h"
@@ -64,6 +66,18 @@ std::size_t CoordinateOf(const CampaignSpec& spec, const std::string& name) {
   return static_cast<std::size_t>(found - free.begin());
 }
 
+// 0.5..2MPa is read by people as two of megapascals, where the bare end is in pascals.
+void RequireUnitsAtBothEnds(const std::string& name, const std::string& low,
+                            const std::string& high) {
+  const bool is_low_bare = base::IsBareNumber(low), is_high_bare = base::IsBareNumber(high);
+  if (is_low_bare == is_high_bare) return;
+  const std::string& bare = is_low_bare ? low : high;
+  const std::string& other = is_low_bare ? high : low;
+  if (base::UnitIn(other).empty() || base::ParseQuantity(bare, base::Dimension::kNone) == 0) return;
+  throw base::ConfigError("--search: " + name + ": " + bare + " has no unit beside " + other +
+                          "; a bare number is in SI: write the unit at both ends");
+}
+
 }  // namespace
 
 AddedParameter ParseAddedParameter(const std::string& text) {
@@ -80,9 +94,11 @@ AddedParameter ParseAddedParameter(const std::string& text) {
                             base::DidYouMean(added.name, names) + "; there are " +
                             base::Joined(names, ", "));
   }
+  const std::string low = text.substr(equals + 1, dots - equals - 1), high = text.substr(dots + 2);
+  RequireUnitsAtBothEnds(added.name, low, high);
   try {
-    added.low = ParseProperty(added.name, text.substr(equals + 1, dots - equals - 1));
-    added.high = ParseProperty(added.name, text.substr(dots + 2));
+    added.low = ParseProperty(added.name, low);
+    added.high = ParseProperty(added.name, high);
   } catch (const base::ConfigError& error) {
     throw base::ConfigError("--search: " + added.name + ": " + error.what());
   }

@@ -1,6 +1,7 @@
 // Simulates cases beside a campaign's own trials, by its engine and runner, each in a folder of its
-// own. What is complete there is not run again, nor what has failed as it is prepared now: the same
-// call goes on where another was ended.
+// own. What is complete there is not run again, nor what has failed as it is prepared now, by a
+// result that is refused or by none, unless all have: the same call goes on where another was
+// ended.
 #pragma once
 
 #include <cstddef>

@@ -209,11 +209,11 @@ void Journal::Insert(const TrialRecord& t) {
   const auto if_known = [](double seconds) { return seconds > 0 ? seconds : base::kNotKnown; };
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
-               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', ?13, "
+               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, ?16, ?13, "
                "?14, 0, 0, '', ?11, ?12, ?15)")
       .Bind(t.id, base::NameOf(t.kind), t.kind_index, t.set, t.origin, t.objective, t.seed,
             t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment, if_known(t.duration_s),
-            if_known(t.cpu_s), t.due)
+            if_known(t.cpu_s), t.due, t.finished_utc)
       .Finish();
   InsertPoint(t);
   SealTrial(database_, t.id);
@@ -232,8 +232,9 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
   for (const TrialRecord& t : trials) {
     database_
         .Prepare(
-            "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5, duration_s = "
-            "?6, cpu_s = ?7 WHERE id = ?1 AND status = 'running'")
+            "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5, finished_utc "
+            "= "
+            "'', duration_s = ?6, cpu_s = ?7 WHERE id = ?1 AND status = 'running'")
         .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc, t.duration_s, t.cpu_s)
         .Finish();
     SealTrial(database_, t.id);

@@ -238,6 +238,31 @@ TEST(Json, ABareNumberBesideOneWithAUnitIsRefused) {
   }
 }
 
+struct MeasuredShare {
+  double value = 0;
+  double sd = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("value", self.value);
+    visit("sd", self.sd, {.unit_of = "value"});
+  }
+};
+
+// 95 % ± 2 was an error of 200 %, by which the number counted for nothing.
+TEST(Json, ABareNumberBesideOneInPercentIsRefused) {
+  const auto error = [](const char* text) {
+    return ErrorIn([&] { LoadOptions<MeasuredShare>(ParseJson(text, "spec.json")); });
+  };
+  EXPECT_THAT(error(R"({"value": "95 %", "sd": 2})"),
+              HasSubstr("sd: is 2 without a % beside a number that has one; write \"2 %\""));
+  EXPECT_THAT(error(R"({"value": "95%", "sd": "0.02"})"), HasSubstr("\"2 %\" for the share 0.02"));
+  for (const char* good : {R"({"value": "95 %", "sd": "2 %"})", R"({"value": 0.95, "sd": "2 %"})",
+                           R"({"value": 0.95, "sd": 0.02})", R"({"value": "95 %", "sd": 0})"}) {
+    EXPECT_EQ(error(good), "") << good;
+  }
+}
+
 TEST(Json, SyntaxErrorsAndDoubleKeysNameTheirPlace) {
   EXPECT_THAT(ErrorOf("{\n \"name\": }"), HasSubstr("spec.json:2:10: is not JSON"));
   EXPECT_THAT(ErrorOf("{\"name\": \"a\",\n \"name\": \"b\"}"), HasSubstr("name: is given twice"));

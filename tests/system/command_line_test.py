@@ -249,7 +249,21 @@ class Progress(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("5 heaps (01, 02, 03, 04, 05), 80 photographs", done.stdout)
         self.assertEqual(out.read_text().count('"name": "0'), 5)
+        self.assertIn('"name": "powder_a"', out.read_text())  # that of the folder, not of the first photograph
         self.assertEqual(talus("validate", str(out), "--without-experiment").returncode, 0)
+
+    # The last dot of a folder's name was taken for that of an ending.
+    def test_a_folder_with_a_dot_gives_its_whole_name(self):
+        folder = self.folder / "Ti64_v1.2"
+        folder.symlink_to(SOURCE / "examples/photos/powder_a")
+        for photos in (f"{folder}", f"{folder}/"):
+            out = self.folder / "dotted.json"
+            out.unlink(missing_ok=True)
+            done = talus("init", photos, "--out", str(out), "--plate-diameter", "10 mm", "--tube-diameter", "10 mm",
+                         "--lift-velocity", "50 mm/s", "--mass", "1.602 g", "--density", "4386 kg/m3",
+                         "--grain-diameter", "100 microns")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), photos)
+            self.assertIn('"name": "Ti64_v1.2"', out.read_text(), photos)
 
     # As a user at a terminal: it asks for what no flag has said, and again after a wrong answer.
     def test_init_asks_on_a_terminal(self):
@@ -365,6 +379,17 @@ class Progress(unittest.TestCase):
         self.assertLess(abs(float(chosen[0]) - float(chosen[2])), 0.6)
         self.assertGreater(float(chosen[0]), 2)
 
+    # The factor of the larger filling alone left 6.67 grains across the tube's plate, which the spec is refused for.
+    def test_init_leaves_enough_grains_across_the_plate_of_a_lifted_tube(self):
+        out = self.folder / "tube_and_cup.json"
+        for plate, factor in ((None, "5"), ("15mm", "8")):
+            out.unlink(missing_ok=True)
+            tube = "lifted_tube:angle_of_repose_triangle=32deg" + (f",plate_diameter={plate}" if plate else "")
+            done = talus("init", "--out", str(out), "--mass", "1.5g", "--density", "2500kg/m^3", "--grain-diameter", "0.15mm",
+                         "--test", tube, "--test", "tapped_density:mass=50g,diameter=30mm,tapped_density=1500kg/m^3")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), tube)
+            self.assertIn(f'"scale_factors": [{factor}]', out.read_text(), tube)
+
     # Its usual error was written without the unit that the value has, and refused.
     def test_init_gives_a_cohesion_its_usual_error(self):
         text = self.started("--test", "shear_cell:cohesion=0.1kPa,internal_friction_angle=30deg")
@@ -382,6 +407,17 @@ class Progress(unittest.TestCase):
             text = self.started("--test", f"tapped_density:tapped_density={answer}")
             entry = json.loads(re.search(r'"tapped_density": ({"value".*?})', text)[1])
             self.assertEqual([word.replace(" ", "") for word in entry.values()], ["1.48g/mL", "0.01g/mL"], answer)
+
+    # 55 % ± 2 was an error of 200 %, by which the share counted for nothing, and 55 ± 2 % was refused.
+    def test_init_takes_the_percent_of_a_share_for_its_error(self):
+        spreading = "spreading:mass=50mg,width=8mm,gap=4mm,length=20mm,"
+        for answer, value, error in (("packing_fraction=55%±2", "55%", "2%"), ("packing_fraction=55±2%", "55%", "2%"),
+                                     ("packing_fraction=0.55±2%", "0.55", "2%"), ("packing_fraction=0.55±0.02", "0.55", "0.02"),
+                                     ("packing_fraction=50%", "50%", "1.5%"), ("coverage=95%", "95%", "2%"),
+                                     ("coverage=0.95", "0.95", "0.02")):
+            text = self.started("--test", spreading + answer)
+            entry = json.loads(re.search(r'"(?:packing_fraction|coverage)": ({"value".*?})', text)[1])
+            self.assertEqual([word.replace(" ", "") for word in entry.values()], [value, error], answer)
 
     def test_init_fills_and_names_each_test_as_it_must_be(self):
         text = self.started("--cohesive", "--test", "drum:angle=30deg", "--test", "drum:angle=33deg,speed=20rpm",

@@ -85,7 +85,7 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultStanding
     if (standing != nullptr && i < standing->numbers.size() &&
         std::isfinite(standing->numbers[i].predicted)) {
       text += " predicted " + rigs::ShownNumber(n.name, standing->numbers[i].predicted) + " ± " +
-              rigs::ShownNumber(n.name, standing->numbers[i].predicted_sd, 2) + ",";
+              rigs::ShownError(n.name, standing->numbers[i].predicted_sd, 2) + ",";
     }
     if (confirmed != nullptr) {
       const ResultScalar& simulated = confirmed->scalars.at(i);
@@ -95,7 +95,7 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultStanding
               ",";
     }
     text += " measured " + rigs::ShownNumber(n.name, n.value) + " ± " +
-            rigs::ShownNumber(n.name, n.standard_error);
+            rigs::ShownError(n.name, n.standard_error);
   }
   return text;
 }

@@ -10,8 +10,9 @@ namespace talus::campaign {
 
 namespace {
 
+// Not one that had ended in a journal that was lost, and is to be told again.
 bool IsRunning(const journal::TrialRecord& trial) {
-  return trial.status == journal::TrialStatus::kRunning;
+  return trial.status == journal::TrialStatus::kRunning && trial.finished_utc.empty();
 }
 
 }  // namespace

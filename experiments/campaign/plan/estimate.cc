@@ -194,6 +194,17 @@ std::optional<std::string> NoFineTrials(const CampaignSpec& spec) {
          " at least, or leave that scale factor out";
 }
 
+std::optional<std::string> FewInWallClock(const CampaignSpec& spec, const CampaignEstimate& e) {
+  constexpr double kEnough = 10;
+  if (!e.num_in_wall_clock || *e.num_in_wall_clock >= kEnough) return std::nullopt;
+  if (spec.budget.simulations > 0 && *e.num_in_wall_clock >= spec.budget.simulations) {
+    return std::nullopt;
+  }
+  return "budget.wall_clock ends the search after about " +
+         base::Counted(static_cast<long long>(*e.num_in_wall_clock), "simulation") +
+         ": give it more than " + base::DurationText(*spec.budget.wall_clock);
+}
+
 }  // namespace
 
 RunEstimate EstimateRun(const rigs::Case& rig_case) {
@@ -251,6 +262,12 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
                          (at_once * spec.threads);
   const double least = (dearest + confirm_time) / spec.threads;
   e.campaign_time = std::max(in_turn, least) + e.proposal_time;
+  if (!spec.budget.wall_clock) return e;
+  // What runs when it is over runs to its end, and is confirmed.
+  const double after =
+      dearest / spec.threads + confirm_time * spec.confirm.MostTrials() / (at_once * spec.threads);
+  e.campaign_time = std::min(e.campaign_time, *spec.budget.wall_clock + after);
+  e.num_in_wall_clock = std::floor(*spec.budget.wall_clock * at_once * spec.threads / dearest);
   return e;
 }
 
@@ -258,6 +275,7 @@ std::vector<std::string> EstimateWarnings(const CampaignSpec& spec, const Campai
   std::vector<std::string> warnings = TooLongTrials(spec, e);
   if (const auto few = FewFineTrials(spec, e)) warnings.push_back(*few);
   if (const auto none = NoFineTrials(spec)) warnings.push_back(*none);
+  if (const auto short_of = FewInWallClock(spec, e)) warnings.push_back(*short_of);
   return warnings;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,8 @@ struct CampaignEstimate : TrialEstimates {
   double proposal_time = 0;                 // [s] of a core, for choosing all trials
   int num_trials = 0;  // at most: noise, search and confirmation; 0: only core time ends it
   int num_workers = 0;
-  double campaign_time = 0;  // [s], at most
+  double campaign_time = 0;                   // [s], at most
+  std::optional<double> num_in_wall_clock{};  // of the dearest trials; none without a limit
 };
 
 // Trials that confirm the answer, of all experiments, at most.

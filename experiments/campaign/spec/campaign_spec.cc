@@ -39,8 +39,11 @@ void ValidateSearch(const CampaignSpec& spec, base::Problems& problems) {
   space.Validate(problems);
   problems.Within("strategy", [&] {
     spec.strategy.ValidateUse(true, problems);
-    spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(),
-                              problems);
+    const auto num_parameters = static_cast<int>(space.Free().size());
+    spec.strategy.ValidateFor(num_parameters, space.IsContinuous(), problems);
+    if (space.constraints.empty() && spec.budget.simulations > 0) {
+      spec.strategy.ValidateGrid(num_parameters, spec.budget.simulations, problems);
+    }
   });
 }
 

@@ -29,12 +29,18 @@ struct ParameterRange {
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("min", self.min, {.dimension = kDimension, .doc = "smallest value; needed unless fixed"});
+    visit(
+        "min", self.min,
+        {.dimension = kDimension, .doc = "smallest value; needed unless fixed", .unit_of = "max"});
     visit("max", self.max,
-          {.dimension = kDimension, .doc = "largest value, > min; needed unless fixed"});
+          {.dimension = kDimension,
+           .doc = "largest value, > min; needed unless fixed",
+           .unit_of = "min"});
     visit("scale", self.scale, {.doc = "log spreads trials evenly over decades; needs min > 0"});
     visit("guess", self.guess,
-          {.dimension = kDimension, .doc = "a value thought to be good, tried first"});
+          {.dimension = kDimension,
+           .doc = "a value thought to be good, tried first",
+           .unit_of = "max"});
     visit("fixed", self.fixed,
           {.dimension = kDimension, .doc = "holds it at this value, without a search"});
     visit("prior", self.prior,

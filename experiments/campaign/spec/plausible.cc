@@ -99,6 +99,17 @@ std::pair<const char*, double> GrainDiameter(const engine::SizeDistribution& siz
   return {"diameters", sizes.diameters.empty() ? 0 : sizes.diameters.back()};
 }
 
+// Both ends of a range, or the value that it is held at.
+template <class Range>
+void RequirePlausibleRange(BenchQuantity quantity, const std::optional<Range>& range,
+                           const std::string& name, base::Problems& problems) {
+  if (!range) return;
+  const std::string path = "parameters." + name + ".";
+  if (range->fixed) return RequirePlausible(quantity, *range->fixed, path + "fixed", problems);
+  RequirePlausible(quantity, range->min, path + "min", problems);
+  RequirePlausible(quantity, range->max, path + "max", problems);
+}
+
 void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
   const engine::Material& grains = spec.powder.material;
   const std::string material = "powder.material.";
@@ -110,7 +121,12 @@ void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
   const auto& [key, diameter] = GrainDiameter(spec.powder.sizes);
   RequirePlausible(BenchQuantity::kGrainDiameter, diameter, "powder.sizes." + std::string(key),
                    problems);
-  if (!spec.parameters || !spec.parameters->surface_energy) return;
+  if (!spec.parameters) return;
+  RequirePlausibleRange(BenchQuantity::kGrainDensity, spec.parameters->density, "density",
+                        problems);
+  RequirePlausibleRange(BenchQuantity::kYoungsModulus, spec.parameters->youngs_modulus,
+                        "youngs_modulus", problems);
+  if (!spec.parameters->surface_energy) return;
   const auto& searched = *spec.parameters->surface_energy;
   RequirePlausible(BenchQuantity::kSurfaceEnergy, searched.fixed.value_or(searched.max),
                    std::string("parameters.surface_energy.") + (searched.fixed ? "fixed" : "max"),

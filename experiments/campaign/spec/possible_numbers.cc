@@ -54,6 +54,7 @@ struct Checker {
                          "must be at most 1: it is a share; write \"" + base::ShortNumber(value) +
                              " %\" for percent");
       });
+      RequireErrorOfShare(*number, place, most);
     }
   }
 
@@ -76,6 +77,17 @@ struct Checker {
                      place + (has_scatter ? "values" : "sd"), number.StandardError(),
                      "as a standard error must be below the value, " + value + std::string(unit) +
                          ": has one of them another unit?");
+  }
+
+  // Beyond a half an error tells nothing of a share; most often it is in percent.
+  template <class Number>
+  void RequireErrorOfShare(const Number& number, const std::string& place, double most) {
+    constexpr double kMost = 0.5;
+    if (most > 1 || (number.values && number.values->size() > 1)) return;
+    const double error = number.StandardError();
+    problems.Require(error <= kMost, place + "sd", error,
+                     "must be at most 0.5: it is the error of a share; write \"" +
+                         base::ShortNumber(error) + " %\" for percent");
   }
 
   // The scatter of values that are each possible tells of one in another unit.

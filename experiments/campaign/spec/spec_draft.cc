@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -314,8 +315,27 @@ double MassInto(const DraftTest& test, double density, double usual) {
   return drum.GrainVolume() * density;
 }
 
+// The smallest plate that a heap stands on [m], the photographed one's and those of lifted tubes;
+// infinite without any.
+double SmallestPlate(const SpecAnswers& answers, const Lengths& lengths) {
+  constexpr const char* kKey = "plate_diameter";
+  double smallest =
+      answers.HasPhotographs() ? lengths.plate : std::numeric_limits<double>::infinity();
+  for (const DraftTest& test : answers.tests) {
+    if (test.kind != rigs::RigKind::kLiftedTube) continue;
+    std::string plate = test.Answer(kKey);
+    if (plate.empty()) {
+      const std::vector<TestQuestion> questions = QuestionsOf(test.kind, answers);
+      plate = std::ranges::find(questions, kKey, &TestQuestion::key)->usual;
+    }
+    smallest = std::min(smallest, base::ParseQuantity(plate, base::Dimension::kLength));
+  }
+  return smallest;
+}
+
 // So coarse that the largest filling is of some ten thousand grains, which a core simulates in
-// seconds: numbers have no outline that single grains would show in.
+// seconds: numbers have no outline that single grains would show in, but for the heap of a lifted
+// tube.
 std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths) {
   constexpr double kGrains = 1e4;
   const double usual = base::ParseQuantity(answers.mass, base::Dimension::kMass);
@@ -323,7 +343,8 @@ std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths)
   double mass = 0;
   for (const DraftTest& test : answers.tests) mass = std::max(mass, MassInto(test, density, usual));
   const double one = density * base::SphereVolume(lengths.grain / 2);
-  return base::ShortNumber(Rounded(std::cbrt(mass / one / kGrains)));
+  const double coarsest = SmallestPlate(answers, lengths) / lengths.grain / kCoarseAcross;
+  return base::ShortNumber(Rounded(std::min(std::cbrt(mass / one / kGrains), coarsest)));
 }
 
 std::string CoarseGraining(const SpecAnswers& answers, const Lengths& lengths) {
@@ -334,7 +355,7 @@ std::string CoarseGraining(const SpecAnswers& answers, const Lengths& lengths) {
   }
   return "  // Grains so many times larger than real. The last decides and should leave 30 across "
          "the plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(lengths.plate / lengths.grain) + "},\n";
+         ScaleFactors(SmallestPlate(answers, lengths) / lengths.grain) + "},\n";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/text/number_text.h"
 #include "base/trimmed.h"
 #include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
@@ -114,12 +115,41 @@ void TellApart(std::vector<TestQuestion>& options, TestQuestion& number) {
   number.key = "measured_" + number.key;
 }
 
+bool IsShare(const TestQuestion& question) {
+  return question.part == TestPart::kNumber && question.dimension == base::Dimension::kNone &&
+         rigs::BoundsOf(question.KeyInSpec()).high <= 1;  // without a unit key and metric are one
+}
+
+// "55±2%" is of percents throughout; 0.55±2% and a ratio of 1.25±2% need none at the value.
+bool LacksPercent(const TestQuestion& question, const std::string& value) {
+  return IsShare(question) && base::IsBareNumber(value) &&
+         base::ParseQuantity(value, base::Dimension::kNone) > 1;
+}
+
 // "0.64±0.01 g/mL" and "0.64 g/mL±0.01": nobody means an error in another unit.
-void ShareUnit(MeasuredText& measured) {
+void ShareUnit(const TestQuestion& question, MeasuredText& measured) {
   const std::string of_value(base::UnitIn(measured.value));
   const std::string of_error(base::UnitIn(measured.error));
-  if (of_value.empty() && !of_error.empty()) measured.value += " " + of_error;
   if (of_error.empty() && !of_value.empty()) measured.error += " " + of_value;
+  if (of_error.empty() || !of_value.empty()) return;
+  const bool is_its_unit = question.dimension != base::Dimension::kNone;
+  if (is_its_unit || LacksPercent(question, measured.value)) measured.value += " " + of_error;
+}
+
+// Beyond a half it tells nothing of a share; most often it is in percent.
+void RequireErrorOfShare(const TestQuestion& question, const std::string& error) {
+  constexpr double kMost = 0.5;
+  if (!IsShare(question) || base::ParseQuantity(error, question.dimension) <= kMost) return;
+  throw base::ConfigError(
+      question.key + ": \"" + error + "\" as the error of a share must be at most 0.5" +
+      (base::IsBareNumber(error) ? "; write \"" + error + " %\" for percent" : ""));
+}
+
+// The usual error, where it is no share of the value, beside a value that may be in percent.
+std::string UsualErrorBeside(const TestQuestion& question, const std::string& value) {
+  if (base::UnitIn(value) != "%") return question.usual_error;
+  const double error = base::ParseQuantity(question.usual_error, question.dimension);
+  return base::WithUnit(100 * error, "%");
 }
 
 constexpr std::string_view kErrorSigns[] = {"±", "+-"};
@@ -202,8 +232,7 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
     if (at == std::string::npos) continue;
     MeasuredText measured{std::string(base::Trimmed(text.substr(0, at))),
                           std::string(base::Trimmed(text.substr(at + sign.size())))};
-    // A share is a number with % and without.
-    if (question.dimension != base::Dimension::kNone) ShareUnit(measured);
+    ShareUnit(question, measured);
     for (const std::string& part : {measured.value, measured.error}) {
       try {
         base::ParseQuantity(part, question.dimension);
@@ -211,6 +240,7 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
         throw base::ConfigError(question.key + ": " + error.what());
       }
     }
+    RequireErrorOfShare(question, measured.error);
     return measured;
   }
   base::ParseQuantity(text, question.dimension);
@@ -219,7 +249,7 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
                             " ± …\", or every measurement: " + question.key + "=…," + question.key +
                             "=…");
   }
-  if (!question.usual_error.ends_with('%')) return {text, question.usual_error};
+  if (!question.usual_error.ends_with('%')) return {text, UsualErrorBeside(question, text)};
   // A share of the value, in the value's own unit.
   const std::size_t number_end = text.find_first_not_of("0123456789.eE+-");
   const double value = base::ParseQuantity(text.substr(0, number_end), base::Dimension::kNone);

@@ -47,8 +47,9 @@ std::string NoUnitText(const std::string& answer, const std::string& example);
 void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example);
 
 // A number and its standard error: as given after ±, or the usual one. A unit that only one of the
-// two has is that of both: "0.64±0.01 g/mL". Throws ConfigError where
-// there is neither, or where one of them is no number with a unit that fits.
+// two has is that of both: "0.64±0.01 g/mL", "55±2 %". Throws ConfigError where
+// there is neither, where one of them is no number with a unit that fits, or for a share's error
+// that tells nothing of it.
 struct MeasuredText {
   std::string value;
   std::string error;

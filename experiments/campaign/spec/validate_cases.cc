@@ -18,6 +18,11 @@ namespace {
 
 constexpr double kFewestAcross = 10;  // grains across the plate
 
+// Whether it decides if the powder fits into its vessel, or how far its grains are pressed there.
+bool DecidesWhetherItFits(const std::string& parameter) {
+  return IsOfBulk(parameter) || parameter == "density" || parameter == "youngs_modulus";
+}
+
 // Points of the cube whose cases are checked: the middle, and both ends of what decides whether the
 // powder fits into its vessel.
 std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
@@ -27,7 +32,8 @@ std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
   std::vector<Eigen::VectorXd> points{middle};
   for (std::size_t k = 0; k < free.size(); ++k) {
-    if (!IsOfBulk(space.parameters[static_cast<std::size_t>(free[k])].name)) continue;
+    const std::string& name = space.parameters[static_cast<std::size_t>(free[k])].name;
+    if (!DecidesWhetherItFits(name)) continue;
     for (const double end : {0.0, 1.0}) {
       points.push_back(middle);
       points.back()[static_cast<Eigen::Index>(k)] = end;
@@ -106,6 +112,14 @@ void CheckConfirmation(const CampaignSpec& spec, int experiment, base::Problems&
                    "leaves a case that cannot be simulated: " + first.path + " " + first.message);
 }
 
+// Those of the search, and that of the confirmation.
+std::set<double> SimulatedFactors(const CampaignSpec& spec) {
+  const std::vector<double> levels = spec.coarse_graining.Levels();
+  std::set<double> factors(levels.begin(), levels.end());
+  if (spec.confirm.candidates > 0) factors.insert(spec.ConfirmScaleFactor());
+  return factors;
+}
+
 }  // namespace
 
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
@@ -114,7 +128,7 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     if (!CheckCases(spec, e, problems)) continue;
     CheckConfirmation(spec, static_cast<int>(e), problems);
-    for (const double factor : spec.coarse_graining.Levels()) {
+    for (const double factor : SimulatedFactors(spec)) {
       const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), factor);
       if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
       const double across = rigs::GrainsAcrossPlate(rig_case);

@@ -33,9 +33,11 @@ bool HasProblem(const base::Problems& problems, std::initializer_list<std::strin
   });
 }
 
-// Images are scaled by the width of plate, drum or box: another one shows another test.
+// Images are scaled by the width of plate, drum or box: another one shows another test. So does one
+// beside numbers alone.
 void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
-  if (!e.images.HasImages() || HasProblem(problems, {place, "device", "rig"})) return;
+  const bool is_given = e.images.HasImages() || e.images.plate_diameter != 0;
+  if (!is_given || HasProblem(problems, {place, "device", "rig"})) return;
   const rigs::Case rig = RigOf(e);
   const double width = rigs::EntryOf(rig).width(rig);
   const bool tube = rig.rig.kind == rigs::RigKind::kLiftedTube;
@@ -45,7 +47,7 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
              "a "
              "device of its own"
            : "is not the width of the rig, " + base::ShortNumber(1e3 * width) +
-                 " mm: the images are of another test, or the experiment needs a rig of its own");
+                 " mm: the data are of another test, or the experiment needs a rig of its own");
 }
 
 // A film is compared picture by picture.

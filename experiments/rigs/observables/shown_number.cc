@@ -38,10 +38,14 @@ std::string SpokenName(const std::string& metric) {
 
 double Possible(std::string_view metric, double value) { return BoundsOf(metric).Clamp(value); }
 
-std::string ShownNumber(std::string_view metric, double value, int digits) {
+std::string ShownError(std::string_view metric, double error, int digits) {
   const ShownUnit unit = ShownUnitOf(UnitOfObservable(metric));
-  return base::ShortNumber(unit.per_unit * Possible(metric, value), digits) +
+  return base::ShortNumber(unit.per_unit * error, digits) +
          (unit.text.empty() || unit.text == "°" ? "" : " ") + unit.text;
+}
+
+std::string ShownNumber(std::string_view metric, double value, int digits) {
+  return ShownError(metric, Possible(metric, value), digits);
 }
 
 }  // namespace talus::rigs

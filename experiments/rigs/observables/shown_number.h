@@ -27,4 +27,7 @@ double Possible(std::string_view metric, double value);
 // "5.04 mg" of 5.04e-6 of "mass_fallen_kg".
 std::string ShownNumber(std::string_view metric, double value, int digits = 4);
 
+// The same of a standard error, which the bounds of the value do not hold for.
+std::string ShownError(std::string_view metric, double error, int digits = 4);
+
 }  // namespace talus::rigs

@@ -148,6 +148,11 @@ TEST(CoreTime, RunningTrialsCountByWhatOthersOfTheirSizeTook) {
   std::vector<journal::TrialRecord> finer = trials;
   finer[2].scale_factor = 1;
   EXPECT_NEAR(time.Of(finer), 24 + 12 * 16, 0.5);
+  // One of a journal that was lost waits to be told again, and took what it took.
+  std::vector<journal::TrialRecord> kept = trials;
+  kept[2].finished_utc = "2026-12-01T00:07:48Z";
+  kept[2].cpu_s = 11;
+  EXPECT_DOUBLE_EQ(time.Of(kept), 10 + 14 + 11);
   // Before any has ended: by the speed of a usual core.
   const std::vector<journal::TrialRecord> first{Trial(2, journal::TrialStatus::kRunning, 0)};
   EXPECT_DOUBLE_EQ(CoreTime(spec).Of(first), GrainStepsOf(spec, 0, 2) / kUsualSpeed);
@@ -177,6 +182,25 @@ TEST(Estimate, WarnsOfABudgetThatBuysFewOfTheFinestTrials) {
               HasSubstr("buys only 9 simulations of each experiment at scale factor 2"));
   estimate.trials[1].core_seconds = 16 * 60 / 10.5;
   EXPECT_TRUE(EstimateWarnings(spec, estimate).empty());
+}
+
+TEST(Estimate, AWallClockEndsTheSearch) {
+  const auto estimated = [](const std::string& wall_clock) {
+    return Read(R"("coarse_graining": {"scale_factor": 4}, "workers": 1,
+                   "budget": {"simulations": 200)" +
+                wall_clock + "}");
+  };
+  const CampaignSpec spec = estimated("");
+  const CampaignEstimate all = EstimateCampaign(spec);
+  EXPECT_TRUE(EstimateWarnings(spec, all).empty());
+  const double limit = 3 * all.trials[0].core_seconds;
+  const CampaignSpec limited = estimated(", \"wall_clock\": " + std::to_string(limit));
+  const CampaignEstimate few = EstimateCampaign(limited);
+  // The speed is measured anew: as often as not it is half as high beside other work.
+  EXPECT_LT(few.campaign_time, all.campaign_time / 2);
+  ASSERT_EQ(EstimateWarnings(limited, few).size(), 1u);
+  EXPECT_THAT(EstimateWarnings(limited, few).front(),
+              HasSubstr("budget.wall_clock ends the search"));
 }
 
 // A design of 4 d + 4 sets at the coarsest, then 3 at each finer one.

@@ -293,6 +293,10 @@ TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
       HasSubstr("parameters.tube_sliding_friction: has no effect: no experiment's rig has a tube"));
   EXPECT_THAT(ErrorOf(With(R"("device": {"tube_length": "5 mm"})")),
               HasSubstr("device.tube_length: is 0.005 (\"5 mm\"), cannot hold the mass"));
+  // 2000 kg/m³, the middle, fits; 1000 is twice as high.
+  EXPECT_THAT(ErrorOf(With(R"("device": {"tube_length": "20 mm"},
+      "parameters": {"density": {"min": 1000, "max": 3000}})")),
+              HasSubstr("device.tube_length: is 0.02 (\"20 mm\"), cannot hold the mass"));
   EXPECT_THAT(ErrorOf(With(R"("noise": {"replicates": 1})")), HasSubstr("noise.replicates: is 1"));
 }
 
