@@ -1,5 +1,6 @@
 """Heaps as arrays: simulated, read, drawn and compared."""
 import os
+import re
 from collections.abc import Mapping
 
 import numpy
@@ -17,6 +18,13 @@ def _frame(frame):
     return plain({key: value for key, value in frame.items() if key not in _BESIDE_FRAMES}, "frame")
 
 
+def _as_called(text):
+    """The remedy at the end with arguments of `simulate` in place of the program's flags."""
+    told, semicolon, remedy = text.rpartition("; ")
+    remedy = re.sub(r"\banother (with )?--out\b", "another folder", remedy).replace(" with --out", "")
+    return told + semicolon + remedy.replace("or --fresh to", "or fresh=True to")
+
+
 def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = False) -> None:
     """Runs a case of a bulk test or a scene, as `talus simulate` does.
 
@@ -25,7 +33,10 @@ def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = F
 
     Raises ConfigError where the input or the folder is not in order, Error where the simulation fails.
     """
-    _core.simulate(path_text(file, "file"), path_text(folder, "folder"), truth(fresh, "fresh"))
+    try:
+        _core.simulate(path_text(file, "file"), path_text(folder, "folder"), truth(fresh, "fresh"))
+    except (_core.ConfigError, _core.Error) as error:
+        raise type(error)(_as_called(str(error))) from None
 
 
 def read_image(file: str | os.PathLike) -> numpy.ndarray:

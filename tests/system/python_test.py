@@ -202,6 +202,14 @@ def check_simulation(root):
     assert metrics["sad_mm2"] == 0 and metrics["iou"] == 1
     check_comparison()
     raises(talus.ConfigError, "case.json", talus.simulate, str(root / "absent/case.json"), str(root / "x"))
+    # Remedies name what `simulate` has, not the program's flags.
+    (root / "other.json").write_text(json.dumps({**CASE, "seed": 2}))
+    raises(talus.ConfigError, "choose another folder, or fresh=True to replace it", talus.simulate, root / "other.json",
+           root / "heap")
+    (root / "mine --out").mkdir()
+    (root / "mine --out/notes.txt").write_text("mine")
+    raises(talus.ConfigError, "mine --out: holds files that `talus simulate` has not written and could overwrite; name a "
+           "new folder", talus.simulate, root / "case.json", root / "mine --out")
     check_interrupts(root)
 
 

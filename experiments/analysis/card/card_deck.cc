@@ -45,9 +45,7 @@ std::string DeckJson(const Card& card) {
   for (const auto& [name, value] : card.deck->placeholders) json["placeholders"][name] = value;
   for (const auto& [name, value] : card.deck->given) json["given_with_them"][name] = value;
   if (!card.ranges.empty()) json["parameters"] = RangesJson(card);
-  for (const CardTest& test : card.tests) {
-    json["tests"].push_back({{"name", test.name}, {"rig", base::ToJson(test.rig)}});
-  }
+  for (const CardTest& test : card.tests) json["tests"].push_back(TestJson(test));
   json["warnings"] = card.notes;
   return base::JsonText(json, 2) + "\n";
 }

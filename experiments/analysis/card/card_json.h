@@ -10,4 +10,7 @@ namespace talus::analysis {
 // The calibrated values with their 90 % ranges.
 nlohmann::ordered_json RangesJson(const Card& card);
 
+// A test's name and device, without what its walls are of.
+nlohmann::ordered_json TestJson(const CardTest& test);
+
 }  // namespace talus::analysis

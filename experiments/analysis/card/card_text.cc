@@ -34,6 +34,14 @@ nlohmann::ordered_json RangesJson(const Card& card) {
   return ranges;
 }
 
+nlohmann::ordered_json TestJson(const CardTest& test) {
+  nlohmann::ordered_json json{{"name", test.name}, {"rig", base::ToJson(test.rig)}};
+  if (test.rig.kind == rigs::RigKind::kLiftedTube) {
+    json["device"] = base::ToJson(test.rig.lifted_tube);
+  }
+  return json;
+}
+
 std::string TestText(const CardTest& test) {
   const std::string name = base::OneLine(test.name);
   if (test.rig.kind == rigs::RigKind::kLiftedTube) {
@@ -193,10 +201,7 @@ std::string JsonCard(const Card& card) {
     json["sizes"].push_back({{"diameter_m", size.diameter}, {"volume_share", size.volume_share}});
   }
   for (const CardTest& test : card.tests) {
-    nlohmann::ordered_json entry{{"name", test.name}, {"rig", base::ToJson(test.rig)}};
-    if (test.rig.kind == rigs::RigKind::kLiftedTube) {
-      entry["device"] = base::ToJson(test.rig.lifted_tube);
-    }
+    nlohmann::ordered_json entry = TestJson(test);
     entry["tube_material"] = card.materials[test.tube].name;
     entry["plate_material"] = card.materials[test.plate].name;
     json["tests"].push_back(std::move(entry));

@@ -130,7 +130,9 @@ DesignRecord CampaignGoal::DesignOf(const campaign::JointView& view, const Eigen
                       .scale_factor = process_.rig_case.coarse_graining.scale_factor};
   if (const auto stored = look.Read(); stored && IsOurs(*stored)) return *stored;
   wanted.points = ChooseDraws(draws, is_first ? kFirstRuns : kMoreRuns, view.spec.seed).points;
+  const double taken = campaign::LookCoreTime(look.root);  // by runs that say nothing now
   look.Make(wanted);
+  if (taken > 0) campaign::KeepLookCoreTime(look.root, taken);
   return wanted;
 }
 
@@ -138,6 +140,7 @@ Prediction CampaignGoal::Collect(double& core_time) const {
   const double scale_factor = process_.rig_case.coarse_graining.scale_factor;
   Prediction runs{.name = process_.name, .scale_factor = scale_factor, .target = scale_factor};
   PredictedNumber number{.name = plan_.spec.goal->metric()};
+  core_time = campaign::GoalCoreTime(plan_.folder.root);
   for (const fs::path& folder : campaign::GoalLooks(plan_.folder.root)) {
     const DesignFolder look{folder};
     const auto design = look.Read();
@@ -145,7 +148,8 @@ Prediction CampaignGoal::Collect(double& core_time) const {
     for (std::size_t i = 0; i < design->points.size(); ++i) {
       const campaign::CaseOutcome outcome = campaign::OutcomeOf(
           {.folder = look.trial(i), .rig_case = CaseAt(folder, *design, i)}, *parts_.engine);
-      core_time += outcome.core_time;
+      // An engine that goes on from a checkpoint may know of more.
+      core_time += outcome.core_time - campaign::TimeTaken(look.trial(i));
       if (!outcome.output) continue;
       const auto& scalars = outcome.output->scalars;
       const auto found = std::ranges::find(scalars, number.name, &journal::MetricRecord::name);
@@ -192,7 +196,6 @@ std::optional<GoalState> CampaignGoal::Look(std::int64_t num_ended,
                                     .rig_case = CaseAt(folder, design, i)};
       }};
   if (!campaign::RunCases(runs, parts_, interrupt)) return std::nullopt;
-  state.core_time = 0;
   const Prediction all = Collect(state.core_time);
   state.num_runs = all.num_runs;
   if (all.num_runs == 0) state.failure = FailureOf(folder);

@@ -36,7 +36,8 @@ class CampaignGoal : public campaign::GoalJudge {
                     std::size_t index) const;
   // What the first of a look's runs has left in its log, in words.
   std::string FailureOf(const std::filesystem::path& look) const;
-  // The runs of all looks, each draw once; and the core time that they took [s].
+  // The runs of all looks, each draw once; and the core time of all runs in DIR/goal [s], of those,
+  // too, that say nothing of this goal.
   Prediction Collect(double& core_time) const;
 
   campaign::JointView plan_;  // before the first trial, so that the scale factor is always the same

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -19,21 +20,34 @@ struct DefinedRuns {
   Levels levels;
 };
 
+// No number is told at a scale factor at which hardly a run has it, unless runs at two others show
+// what the scale factor changes.
+double ScaleFactorOf(const Prediction& prediction, const PredictedNumber& number) {
+  std::map<double, int> num_runs;
+  for (std::size_t r = 0; r < number.by_run.size(); ++r) {
+    if (std::isfinite(number.by_run[r])) ++num_runs[prediction.runs[r].scale_factor];
+  }
+  std::erase_if(num_runs,
+                [](const auto& level) { return level.second < NumberSurrogate::kFewestRuns; });
+  if (num_runs.size() < 2) return prediction.scale_factor;
+  return std::min(prediction.target, num_runs.begin()->first);
+}
+
 std::optional<DefinedRuns> DefinedRunsOf(const Prediction& prediction,
-                                         const PredictedNumber& number) {
+                                         const PredictedNumber& number, double scale_factor) {
   std::vector<std::size_t> runs;
   std::set<int> draws;
   std::set<double> scale_factors;
   for (std::size_t r = 0; r < number.by_run.size(); ++r) {
     if (!std::isfinite(number.by_run[r])) continue;
+    if (prediction.runs[r].scale_factor < scale_factor) continue;
     runs.push_back(r);
     draws.insert(prediction.runs[r].draw);
     scale_factors.insert(prediction.runs[r].scale_factor);
   }
   if (draws.size() < NumberSurrogate::kFewest) return std::nullopt;
   return DefinedRuns{.run = std::move(runs),
-                     .levels = Levels({scale_factors.begin(), scale_factors.end()},
-                                      std::min(prediction.target, *scale_factors.begin()))};
+                     .levels = Levels({scale_factors.begin(), scale_factors.end()}, scale_factor)};
 }
 
 surrogate::Evaluations EvaluationsOf(const Prediction& prediction, const PredictedNumber& number,
@@ -182,12 +196,14 @@ Eigen::MatrixXd PointsOf(const Prediction& prediction, const optimizer::Paramete
 std::optional<NumberSurrogate> NumberSurrogate::Fit(const Prediction& prediction,
                                                     const PredictedNumber& number,
                                                     const optimizer::ParameterSpace& space) {
-  const std::optional<DefinedRuns> defined = DefinedRunsOf(prediction, number);
+  const double scale_factor = ScaleFactorOf(prediction, number);
+  const std::optional<DefinedRuns> defined = DefinedRunsOf(prediction, number, scale_factor);
   if (!defined) return std::nullopt;
   const Levels& levels = defined->levels;
   const Eigen::MatrixXd points = PointsOf(prediction, space);
   const surrogate::Evaluations evaluations = EvaluationsOf(prediction, number, *defined, points);
   NumberSurrogate fitted;
+  fitted.scale_factor_ = scale_factor;
   fitted.constant_ = evaluations.values.mean();
   fitted.bounds_ = rigs::BoundsOf(number.name);
   const double spread = surrogate::StandardDeviation(evaluations.values);

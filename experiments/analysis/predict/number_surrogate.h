@@ -18,14 +18,19 @@ Eigen::MatrixXd PointsOf(const Prediction& prediction, const optimizer::Paramete
 class NumberSurrogate {
  public:
   static constexpr int kFewest = 6;  // draws with a value that it can stand on
+  // Runs at one scale factor that have the number: fewer do not show what the scale factor changes.
+  static constexpr int kFewestRuns = 4;
 
   // None where fewer draws have the number.
   static std::optional<NumberSurrogate> Fit(const Prediction& prediction,
                                             const PredictedNumber& number,
                                             const optimizer::ParameterSpace& space);
 
-  // What runs of each set give on average at the prediction's target scale factor: one point of
-  // the unit cube a row; never beyond what the number can be. The variance is that of this mean.
+  // The scale factor that it tells: the prediction's target where runs at several have the number,
+  // else that of the draws. Finer runs, too few to count, are left out.
+  double scale_factor() const { return scale_factor_; }
+  // What runs of each set give on average at that scale factor: one point of the unit cube a row;
+  // never beyond what the number can be. The variance is that of this mean.
   surrogate::Predictions At(const Eigen::MatrixXd& points) const;
   // Standard deviation of a single run there.
   double run_sd() const { return run_sd_; }
@@ -41,6 +46,7 @@ class NumberSurrogate {
 
   // None: the number is the same everywhere.
   std::optional<surrogate::GaussianProcess> process_;
+  double scale_factor_ = 1;
   double constant_ = 0;
   rigs::Bounds bounds_;
   double run_sd_ = 0;

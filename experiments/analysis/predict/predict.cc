@@ -238,7 +238,7 @@ class Predictor {
                                       : kSceneTest,
                           .by = options_.By(),
                           .scale_factor = scale_factor,
-                          .target = Target(),
+                          .target = scale_factor,
                           .last_trial = design_.last_trial,
                           .notes = case_.notes};
     for (std::size_t d = 0; d < design_.points.size(); ++d) {
@@ -249,12 +249,17 @@ class Predictor {
     return prediction;
   }
 
-  // The scale factor that surrogates tell: the answer's, where several were simulated.
-  double Target() const {
-    if (stages_.size() == 1) return ScaleFactor();
+  // The scale factor that surrogates tell: the answer's, where a few runs have ended well at each
+  // of several. What is planned alone says nothing.
+  double Target(const PredictionRuns& runs) const {
     double target = view_.spec.coarse_graining.Target();
-    for (const PredictionStage& stage : stages_) target = std::min(target, stage.scale_factor);
-    return target;
+    int num_levels = 0;
+    for (const PredictionStage& stage : stages_) {
+      if (runs.NumEnded(stage.scale_factor) < NumberSurrogate::kFewestRuns) continue;
+      target = std::min(target, stage.scale_factor);
+      ++num_levels;
+    }
+    return num_levels > 1 ? target : ScaleFactor();
   }
 
   // After 4, 8, 16, … runs: the range as it is known by then.
@@ -287,6 +292,7 @@ class Predictor {
 
   Prediction Conclude(const PredictionRuns& runs) const {
     Prediction prediction = Frame(ScaleFactor());
+    prediction.target = Target(runs);
     std::vector<std::optional<Spread>> spreads = runs.Summarise(prediction);
     for (PredictedNumber& number : prediction.numbers) number.is_usual = IsUsual(number.name);
     AskSurrogates(prediction, spreads);
@@ -320,8 +326,10 @@ class Predictor {
     // A surrogate carries a number on to the target; the draws, where it is not used, do not.
     const bool is_carried =
         prediction.target <= target &&
-        std::ranges::all_of(prediction.numbers, [](const PredictedNumber& number) {
-          return !number.is_usual || (number.surrogate && number.surrogate->is_used);
+        std::ranges::all_of(prediction.numbers, [&](const PredictedNumber& number) {
+          const auto& surrogate = number.surrogate;
+          return !number.is_usual ||
+                 (surrogate && surrogate->is_used && surrogate->scale_factor <= target);
         });
     if (!case_.scene_text.empty() || ScaleFactor() <= target || is_carried) return;
     prediction.notes.push_back("simulated at scale factor " + base::ShortNumber(ScaleFactor()) +

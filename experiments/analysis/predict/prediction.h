@@ -76,17 +76,17 @@ struct PredictedNumber {
                parameters_share, by_draw, by_run, surrogate, measured);
 };
 
-// A measured profile beside the simulated ones. Distances are areas between silhouettes.
+// A measured profile beside the simulated ones. Distances are areas between silhouettes; what 90 %
+// of single runs keep within is not known of a few runs, and nothing is then inside or outside.
 struct MeasuredImage {
-  double sad_mm2 = base::kNotKnown;  // measured from the predicted mean
-  double sad_90_mm2 =
-      base::kNotKnown;  // 90 % of single runs are as near to the mean; of one run unknown
-  bool is_inside = false;
+  double sad_mm2 = base::kNotKnown;     // measured from the predicted mean
+  double sad_90_mm2 = base::kNotKnown;  // 90 % of single runs are as near to the mean
+  std::optional<bool> is_inside{};
   int nearest_draw = 0;  // whose mean is nearest to what was measured
   double nearest_sad_mm2 = base::kNotKnown;
   double nearest_sad_90_mm2 =
       base::kNotKnown;  // 90 % of single runs are as near to their draw's mean
-  bool nearest_is_inside = false;
+  std::optional<bool> nearest_is_inside{};
 
   TALUS_FIELDS(sad_mm2, sad_90_mm2, is_inside, nearest_draw, nearest_sad_mm2, nearest_sad_90_mm2,
                nearest_is_inside);

@@ -11,7 +11,6 @@ namespace talus::analysis {
 namespace {
 
 constexpr double kLongRound = 20;  // [core s] of one run of each draw: coarser ones come first
-constexpr int kFewestFiner = 4;    // runs: fewer do not show what a scale factor changes
 
 int RunsIn(const PredictionStage& stage) { return stage.num_draws * stage.num_seeds; }
 
@@ -48,7 +47,7 @@ void AddFiner(const campaign::JointView& view, const rigs::Case& rig_case,
     if (level >= rig_case.coarse_graining.scale_factor) return;
     if (!IsPossibleAt(rig_case, level)) continue;
     const double affordable = left / CoreSecondsAt(view, rig_case, level);
-    if (affordable < kFewestFiner) continue;
+    if (affordable < NumberSurrogate::kFewestRuns) continue;
     const int count = static_cast<int>(std::min<double>(affordable, wanted.num_draws));
     stages.push_back({.scale_factor = level, .num_draws = count});
     return;

@@ -256,6 +256,7 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
   std::vector<imaging::GrayImage> means;
   std::vector<double> weights;
   std::vector<Weighted> own;  // of each run to its draw's mean
+  int num_own = 0;
   MeasuredImage image;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t d = 0; d < weights_.size(); ++d) {
@@ -264,6 +265,8 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
     means.push_back(imaging::MeanImage(runs));
     weights.push_back(weights_[d]);
     const auto n = static_cast<double>(runs.size());
+    // Two runs are as far from their mean as each other.
+    if (runs.size() > 1) num_own += runs.size() == 2 ? 1 : static_cast<int>(runs.size());
     for (const imaging::GrayImage& run : runs) {
       all.push_back({run, weights_[d] / n});
       if (n > 1) own.push_back({sad(run, means.back()) * ToAnother(1 / n), weights_[d] / n});
@@ -276,7 +279,8 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
   if (all.empty()) return std::nullopt;
   const imaging::GrayImage mean = WeightedMean(means, weights);
   image.sad_mm2 = sad(measured.image, mean);
-  if (all.size() > 1) {
+  const bool are_many_draws = weights_.size() == 1 || means.size() >= kFewestDrawsOfARange;
+  if (all.size() >= kFewestOfARange && are_many_draws) {
     double total = 0, squares = 0;
     for (const SeenRun& run : all) total += run.weight;
     for (const SeenRun& run : all) squares += std::pow(run.weight / total, 2);
@@ -284,11 +288,13 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
     std::vector<Weighted> spread;
     for (const SeenRun& run : all) spread.push_back({sad(run.image, mean) * another, run.weight});
     image.sad_90_mm2 = Quantile90(spread);
+    image.is_inside = image.sad_mm2 <= image.sad_90_mm2;
   }
-  image.is_inside = image.sad_mm2 <= image.sad_90_mm2;
   image.nearest_sad_mm2 = nearest;
-  if (!own.empty()) image.nearest_sad_90_mm2 = Quantile90(own);
-  image.nearest_is_inside = nearest <= image.nearest_sad_90_mm2;
+  if (num_own >= kFewestOfARange) {
+    image.nearest_sad_90_mm2 = Quantile90(own);
+    image.nearest_is_inside = nearest <= image.nearest_sad_90_mm2;
+  }
   return image;
 }
 

@@ -11,6 +11,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/analysis/predict/prediction_runs.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
 
@@ -125,14 +126,21 @@ std::string ImageText(const Prediction& prediction,
   const MeasuredImage& image = *prediction.image;
   std::string text =
       "  measured image  " + ShortNumber(image.sad_mm2) + " mm² from the predicted mean";
-  if (!std::isfinite(image.sad_90_mm2)) return text + ", which is one run\n";
-  text += std::string(", ") + (image.is_inside ? "inside" : "outside") + " of the " +
+  if (!image.is_inside) {
+    return text + "; too few runs to tell how far others lie from it: it takes " +
+           std::to_string(PredictionRuns::kFewestOfARange) +
+           (prediction.draws.size() > 1
+                ? ", of " + std::to_string(PredictionRuns::kFewestDrawsOfARange) + " draws or more"
+                : "") +
+           "\n";
+  }
+  text += std::string(", ") + (*image.is_inside ? "inside" : "outside") + " of the " +
           ShortNumber(image.sad_90_mm2) + " mm² of 90 % of single runs";
-  if (image.is_inside || prediction.by != PredictedBy::kPosterior) return text + "\n";
+  if (*image.is_inside || prediction.by != PredictedBy::kPosterior) return text + "\n";
   text += "; nearest is " + SetText(prediction, image.nearest_draw, parameters) + ", " +
           ShortNumber(image.nearest_sad_mm2) + " mm² from it";
-  if (!std::isfinite(image.nearest_sad_90_mm2)) return text + "\n";
-  return text + (image.nearest_is_inside
+  if (!image.nearest_is_inside) return text + "\n";
+  return text + (*image.nearest_is_inside
                      ? ", which gives it: `talus add-experiment` would narrow the answer by it\n"
                      : ", and does not give it either\n");
 }

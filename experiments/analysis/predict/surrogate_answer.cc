@@ -23,7 +23,7 @@ void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets
   if (!surrogate || surrogate->draws_error() == 0) return;  // a number that never changes
   const Spread told(surrogate->At(sets.points), surrogate->run_sd(), rigs::BoundsOf(number.name));
   number.surrogate =
-      PredictedSurrogate{.scale_factor = prediction.target,
+      PredictedSurrogate{.scale_factor = surrogate->scale_factor(),
                          .left_out_error = surrogate->left_out_error(),
                          .draws_error = surrogate->draws_error(),
                          .is_used = surrogate->left_out_error() < surrogate->draws_error(),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/not_known.h"
 
 namespace talus::analysis {
 
@@ -15,10 +16,11 @@ inline constexpr double kSure = 2;  // standard errors that are not chance
 struct OutputShift {
   std::string experiment{};
   std::string output{};  // "image", or the number's name
-  double shift = 0;      // [sd of one simulation at the target scale factor]; of an image the root
-                         // mean square over its modes, of a number with its sign
-  double noise = 0;      // sd that chance gives the shift; of an image its root mean square
-  int num_modes = 0;     // that these are root mean squares over, 1 of a number
+  // [sd of one simulation at the target scale factor]; of an image the root mean square over its
+  // modes, of a number with its sign
+  double shift = base::kNotKnown;
+  double noise = base::kNotKnown;  // sd that chance gives it; of an image its root mean square
+  int num_modes = 0;               // that these are root mean squares over, 1 of a number
   // Both NaN where no simulation, with the move or without, has the number.
 
   static constexpr base::FieldKey kKeys[] = {{"shift", "shift_in_noise_sd"},
@@ -59,7 +61,7 @@ struct FixedMove {
   std::string why_not_followed{};  // why the answer is not simulated where it was foretold last
   std::vector<OutputShift> outputs{};
   std::vector<AnswerShift> answer{};
-  double implausibility = 0;  // of that answer, the largest of the experiments' [sd]
+  double implausibility = base::kNotKnown;  // of that answer, the largest of the experiments' [sd]
 
   static constexpr base::FieldKey kKeys[] = {{"implausibility", "implausibility_sd"}};
   TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, moves_still, why_not,

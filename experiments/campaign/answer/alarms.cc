@@ -29,18 +29,20 @@ bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
 
 // The set without the scatter of its simulations, which is what a model of mean heaps predicts; of
 // another objective than the SAD that of the mean heap.
-double WithoutScatter(const Answer& answer, const ResultConfirmed& confirmed) {
-  if (!MinimisesSad(answer) || !confirmed.profile_sad_mm2 || confirmed.num_trials < 2) {
-    return MinimisesSad(answer) ? confirmed.mean : ComparableOf(answer, confirmed);
-  }
-  return std::min(confirmed.mean, SadWithoutScatter(confirmed));
+double WithoutScatter(const Answer& answer, const ResultExperiment& experiment,
+                      const ResultConfirmed& confirmed) {
+  if (!MinimisesSad(answer)) return ComparableOf(answer, confirmed);
+  // The scatter of a single one is not known, and is a part of its SAD.
+  if (confirmed.num_trials < 2) return base::kNotKnown;
+  if (!confirmed.profile_sad_mm2) return confirmed.mean;
+  return std::min(confirmed.mean, SadWithoutScatter(experiment, confirmed));
 }
 
 std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperiment& experiment) {
   const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (confirmed == nullptr || standing == nullptr) return std::nullopt;
-  const double mean = WithoutScatter(answer, *confirmed);
+  const double mean = WithoutScatter(answer, experiment, *confirmed);
   const double excess = mean - standing->predicted;
   const std::optional<double> floor =
       MinimisesSad(answer) ? experiment.noise_floor : std::nullopt;  // [mm²]

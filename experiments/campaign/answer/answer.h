@@ -63,6 +63,9 @@ struct ResultExperiment {
   bool has_image = false;
   int num_heaps = 1;                    // that its image is the mean of
   std::optional<double> powder_area{};  // of its image [mm²]
+  // Simulated views for each photograph that the image of one heap is the mean of; 1 of several
+  // heaps, and where its grey levels do not tell. A picture of few views scatters more.
+  double views_per_photograph = 1;
   std::vector<ResultNumber> numbers{};
   std::optional<double> noise_floor{};  // SAD from run to run [mm²]; none for a map or numbers
   std::optional<double> noise_sd{};     // of one simulation's objective at the target, by the model
@@ -70,8 +73,8 @@ struct ResultExperiment {
 
   static constexpr base::FieldKey kKeys[] = {{"powder_area", "powder_area_mm2"},
                                              {"noise_floor", "noise_floor_mm2"}};
-  TALUS_FIELDS(name, has_image, num_heaps, powder_area, numbers, noise_floor, noise_sd,
-               replicates_sd);
+  TALUS_FIELDS(name, has_image, num_heaps, powder_area, views_per_photograph, numbers, noise_floor,
+               noise_sd, replicates_sd);
 };
 
 // What an experiment is made with.

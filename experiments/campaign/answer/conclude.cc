@@ -16,6 +16,7 @@
 #include "experiments/campaign/answer/representatives.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/rigs/case/case.h"
 #include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "imaging/photos/sad_from_others.h"
@@ -177,6 +178,10 @@ ResultExperiment ExperimentOf(const Planner& planner, const CampaignEvidence& ev
                         .replicates_sd = ReplicatesSd(planner, reference, index)};
   if (const auto frame = reference.frame()) {
     made.powder_area = record.nebp_px * std::pow(1e3 * frame->pixel_size, 2);
+    const int num_simulated =
+        rigs::NumViewsOf(TypicalCase(evidence.spec, index, evidence.spec.coarse_graining.Target()));
+    const double ratio = static_cast<double>(num_simulated) / reference.NumViews();
+    if (record.num_heaps == 1) made.views_per_photograph = std::max(1.0, ratio);
   }
   return made;
 }

@@ -20,13 +20,16 @@ constexpr double kFarImage = 3;  // standard errors: SADs are skewed (tests coun
 constexpr double kMostShare = 0.05;  // of the powder's area
 
 // The square of a mean profile's SAD falls as a² + b²/n with its n heaps: b, from one heap and all.
-// Not from one heap that is black and white: it is as far from a mean as from another of its kind.
-double ScatterOfOne(const ResultConfirmed& confirmed) {
+// Not from one heap that is black and white: it is as far from a mean as from another of its kind,
+// and how far the trials are from each other tells.
+double ScatterOfOne(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2 || !confirmed.sad_mm2 || confirmed.num_trials < 2) return 0;
   const double n = confirmed.num_trials;
   const double one = *confirmed.sad_mm2;
   const double all = *confirmed.profile_sad_mm2;
-  return std::sqrt(std::max(0.0, (one * one - all * all) * n / (n - 1)));
+  const double by_means = std::sqrt(std::max(0.0, (one * one - all * all) * n / (n - 1)));
+  if (experiment.views_per_photograph == 1) return by_means;
+  return std::max(by_means, confirmed.spread_mm2.value_or(0) * std::sqrt((n - 1) / n));
 }
 
 // How far above its mean chance may take the SAD of a mean profile [mm²], by the scatter that the
@@ -45,8 +48,10 @@ double ChanceOf(const Answer& answer, const ResultExperiment& experiment,
 // Nothing where the powder's area is not known.
 std::optional<double> LimitWithoutRuns(const ResultExperiment& experiment,
                                        const ResultConfirmed& confirmed) {
-  if (!experiment.powder_area) return std::nullopt;
-  const double scatter = std::max(ScatterOfOne(confirmed), confirmed.spread_mm2.value_or(0));
+  if (!experiment.powder_area || confirmed.num_trials < 2) return std::nullopt;
+  const double scatter =
+      std::max(ScatterOfOne(experiment, confirmed), confirmed.spread_mm2.value_or(0)) *
+      std::sqrt(experiment.views_per_photograph);
   return std::max(kMostShare * *experiment.powder_area, kCloseRuns * scatter);
 }
 
@@ -59,7 +64,7 @@ Meets ImageMeets(const Answer& answer, const ResultExperiment& experiment,
     return beyond > ChanceOf(answer, experiment, confirmed) ? Meets::kNo : Meets::kUnknown;
   }
   const auto limit = LimitWithoutRuns(experiment, confirmed);
-  return limit && SadWithoutScatter(confirmed) > *limit ? Meets::kNo : Meets::kUnknown;
+  return limit && SadWithoutScatter(experiment, confirmed) > *limit ? Meets::kNo : Meets::kUnknown;
 }
 
 // How far apart they are in standard errors; a few simulations have one, too.
@@ -94,7 +99,7 @@ double DistanceOfImage(const ResultExperiment& experiment, const ResultConfirmed
   if (confirmed.over_floor) return *confirmed.over_floor / kCloseRuns;
   const auto limit = LimitWithoutRuns(experiment, confirmed);
   if (!limit || !confirmed.profile_sad_mm2) return base::kNotKnown;
-  return SadWithoutScatter(confirmed) / *limit;
+  return SadWithoutScatter(experiment, confirmed) / *limit;
 }
 
 bool IsImplausible(const Answer& answer, const std::string& experiment) {
@@ -137,10 +142,10 @@ double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed) {
   return confirmed.profile_objective.value_or(confirmed.mean);
 }
 
-double SadWithoutScatter(const ResultConfirmed& confirmed) {
+double SadWithoutScatter(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
   const double all =
       confirmed.profile_sad_mm2.value_or(confirmed.sad_mm2.value_or(base::kNotKnown));
-  const double scatter = ScatterOfOne(confirmed);
+  const double scatter = ScatterOfOne(experiment, confirmed);
   return std::sqrt(std::max(0.0, all * all - scatter * scatter / confirmed.num_trials));
 }
 

@@ -6,7 +6,8 @@
 // when it is farther by three standard errors of the mean of so many simulations. Without runs it
 // is missed when the set itself, the scatter of its pictures taken off, is more than 5 % of the
 // powder's area and 1.5 times that scatter away, or 1.5 times as far as the confirming trials are
-// from each other: a map may be of one heap.
+// from each other: a map may be of one heap. Where it shows fewer views than they do, it scatters
+// more, by the root of their ratio. A single confirming trial does not tell.
 //
 // A number is met within two standard errors, those of the measurement and of the simulations
 // together, and missed beyond
@@ -96,6 +97,6 @@ std::string DistanceUnit(const Answer& answer);
 double NoiseOfConfirming(const Answer& answer, const ResultExperiment& experiment);
 
 // The SAD that the set would have without the scatter of its simulations.
-double SadWithoutScatter(const ResultConfirmed& confirmed);
+double SadWithoutScatter(const ResultExperiment& experiment, const ResultConfirmed& confirmed);
 
 }  // namespace talus::campaign

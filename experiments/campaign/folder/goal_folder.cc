@@ -1,13 +1,16 @@
 #include "experiments/campaign/folder/goal_folder.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
+#include "base/text/number_text.h"
 #include "experiments/campaign/folder/record_file.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
@@ -15,6 +18,16 @@ namespace {
 
 constexpr const char* kGoalFile = "goal.json";
 constexpr std::int64_t kFirstLook = 16;  // number of ended trials
+
+// Core time that a folder says its runs took [s].
+double NotedTime(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / rigs::kTookFile;
+  if (!std::filesystem::exists(file)) return 0;
+  const std::string text = base::ReadFile(file);
+  double seconds = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
+}
 
 bool IsJudgedWith(const CampaignSpec& spec, const GoalState& state) {
   const GoalState now = NewGoalState(spec, state.after);
@@ -37,6 +50,25 @@ std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campai
   return looks;
 }
 
+double LookCoreTime(const std::filesystem::path& look) {
+  double seconds = NotedTime(look);  // of runs that were removed
+  if (!std::filesystem::is_directory(look / "trials")) return seconds;
+  for (const auto& entry : std::filesystem::directory_iterator(look / "trials")) {
+    if (entry.is_directory()) seconds += NotedTime(entry.path());
+  }
+  return seconds;
+}
+
+double GoalCoreTime(const std::filesystem::path& campaign) {
+  double seconds = 0;
+  for (const std::filesystem::path& look : GoalLooks(campaign)) seconds += LookCoreTime(look);
+  return seconds;
+}
+
+void KeepLookCoreTime(const std::filesystem::path& look, double seconds) {
+  base::WriteFileAtomically(look / rigs::kTookFile, base::ExactNumber(seconds));
+}
+
 GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after) {
   return {.goal = GoalText(spec),
           .after = after,
@@ -51,7 +83,10 @@ std::optional<GoalState> LastGoal(const std::filesystem::path& campaign, const C
     auto state = ReadRecordFile<GoalState>(look / kGoalFile);
     if (state && state->goal == GoalText(spec)) last = std::move(state);
   }
-  if (last && !IsJudgedWith(spec, *last)) last->reason.reset();
+  if (!last) return last;
+  if (!IsJudgedWith(spec, *last)) last->reason.reset();
+  // A look that was ended has runs, too, and so have looks at what another spec asked for.
+  last->core_time = std::max(last->core_time, GoalCoreTime(campaign));
   return last;
 }
 

@@ -24,8 +24,8 @@ struct GoalState {
   double parameters_half_width = base::kNotKnown;  // what the sets leave open
   double surrogate_half_width = base::kNotKnown;   // of the number as a function of the sets
   double least_half_width = base::kNotKnown;       // expected once every set had been simulated
-  int num_runs = 0;                                // of all looks so far
-  double core_time = 0;                            // of these [s]
+  int num_runs = 0;                                // of all looks so far, at this goal
+  double core_time = 0;                            // of every run in DIR/goal so far [s]
   std::optional<optimizer::StopReason> reason{};   // why the search may end; none: it goes on
   std::string failure{};  // why no run of it has ended well; nothing more is then run for it
 
@@ -46,6 +46,13 @@ struct GoalSpec;
 std::filesystem::path GoalFolder(const std::filesystem::path& campaign);  // absolute
 // Folders of the looks, by number of trials.
 std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campaign);
+
+// Core time of every run in DIR/goal [s], whatever goal and parameters it was made for.
+double GoalCoreTime(const std::filesystem::path& campaign);
+// The same of one look.
+double LookCoreTime(const std::filesystem::path& look);
+// That of a look's runs that were removed, to be counted with the others [s].
+void KeepLookCoreTime(const std::filesystem::path& look, double seconds);
 
 // What a look begins with.
 GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -82,6 +85,12 @@ std::vector<journal::MetricRecord> Reference::Measure(const imaging::GrayImage& 
                        .undefined = metric.value.not_defined});
   }
   return records;
+}
+
+int Reference::NumViews() const {
+  const std::vector<std::uint8_t>& pixels = aehp_.profile.image.pixels;
+  const std::set<std::uint8_t> levels(pixels.begin(), pixels.end());
+  return std::max(1, static_cast<int>(levels.size()) - 1);
 }
 
 bool Reference::IsMeasured(const journal::TrialRecord& trial) const {

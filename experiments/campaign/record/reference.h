@@ -35,6 +35,10 @@ class Reference {
   const imaging::Profile& aehp() const { return aehp_.profile; }  // with an image
   const std::vector<journal::ScalarRecord>& scalars() const { return options_.scalars; }
 
+  // Photographs that its image can be the mean of, by its grey levels: one if it is black and
+  // white.
+  int NumViews() const;  // with an image
+
   // Every metric of a trial's profile; none without an image.
   std::vector<journal::MetricRecord> Measure(const imaging::GrayImage& profile) const;
 

@@ -96,6 +96,7 @@ TEST(DeckCard, HasThePlaceholdersAsTheyWentIntoTheDeck) {
   EXPECT_THAT(lammps, HasSubstr("{{ surface_energy_used }} = 0.02, {{ scale_factor }} = 2"));
   const auto json = nlohmann::json::parse(CardText(card, CardFormat::kJson));
   EXPECT_EQ(json["placeholders"]["surface_energy"], "0.01");
+  EXPECT_EQ(json["tests"][0]["device"]["plate_diameter"], rig_case.rig.lifted_tube.plate_diameter);
 }
 
 // A heap on a plate of its own, and powder tapped in a cylinder of another material that states its

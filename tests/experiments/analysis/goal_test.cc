@@ -12,6 +12,7 @@
 #include "experiments/analysis/next/campaign_goal.h"
 #include "experiments/campaign/add_experiment.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/rigs/case/run_files.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
@@ -44,12 +45,12 @@ class GoalTest : public campaign::CampaignFixture {
                      observable + R"(", "half_width": ")" + half_width + "\"}",
                  name);
   }
-  static campaign::CampaignEnd Run(const fs::path& folder,
-                                   const campaign::FakeEngineOptions& of_goal = {
-                                       .density_scatter = 0.3}) {
+  static campaign::CampaignEnd Run(
+      const fs::path& folder, const campaign::FakeEngineOptions& of_goal = {.density_scatter = 0.3},
+      const campaign::ResumeOptions& options = {}) {
     const base::InterruptGuard interrupt;
     campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
-    campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
+    campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
     const auto parts = [&](const campaign::FakeEngineOptions& engine) {
       return campaign::CampaignParts{
           .runner = campaign::MakeDrawnRunner(opened.spec, opened.folder.root),
@@ -67,6 +68,12 @@ class GoalTest : public campaign::CampaignFixture {
     campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
     opened.journal.ReopenSearch();
     fs::remove(folder / "result.json");
+  }
+  // As if each run of the first look had taken so long [s].
+  static void SetTimeOfFirstLook(const fs::path& folder, const std::string& seconds) {
+    for (const auto& run : fs::directory_iterator(campaign::GoalLooks(folder).at(0) / "trials")) {
+      if (run.is_directory()) base::WriteFileAtomically(run.path() / rigs::kTookFile, seconds);
+    }
   }
   static std::optional<GoalState> Last(const fs::path& folder) {
     return campaign::LastGoal(folder, campaign::ReadJointView(folder).spec);
@@ -122,6 +129,37 @@ TEST_F(GoalTest, ATestThatIsAddedAfterwardsIsSimulated) {
               former.OfSearch(Trials(folder)) + Last(folder)->core_time + 0.3, 1e-9);
   EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
   EXPECT_GE(std::ranges::count(Trials(folder), 1, &journal::TrialRecord::experiment), 6);
+}
+
+// Its runs have points of another length then, and say nothing; their time vanished with that.
+TEST_F(GoalTest, RunsBeforeAParameterWasAddedStayInTheCost) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  Run(folder);
+  SetTimeOfFirstLook(folder, "100");
+  EXPECT_GE(Last(folder)->core_time, 800);
+  campaign::ResumeOptions options;
+  options.search = {"restitution=0.3..0.95"};
+  ASSERT_EQ(Run(folder, {.density_scatter = 0.3}, options), campaign::CampaignEnd::kFinished);
+  ASSERT_GT(campaign::GoalLooks(folder).size(), 1u);
+  EXPECT_EQ(Last(folder)->num_parameters, 3);
+  EXPECT_GE(Last(folder)->core_time, 800);
+  EXPECT_GE(3600 * Result(folder).cost.core_hours, 800);
+}
+
+// A look whose design is not there, or is that of another process, is made anew in its place.
+TEST_F(GoalTest, RunsThatAreReplacedStayInTheCost) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  Run(folder);
+  SetTimeOfFirstLook(folder, "100");
+  const fs::path look = campaign::GoalLooks(folder).at(0);
+  fs::remove(look / "goal.json");
+  fs::remove(look / "design.json");
+  Reopen(folder);
+  ASSERT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
+  ASSERT_TRUE(fs::exists(look / "design.json"));
+  EXPECT_GE(Last(folder)->core_time, 800);
+  EXPECT_LT(Last(folder)->core_time, 1000);  // once
+  EXPECT_GE(3600 * Result(folder).cost.core_hours, 800);
 }
 
 // What the heap leaves open of μ_r stays open whatever is simulated, and so does the density.

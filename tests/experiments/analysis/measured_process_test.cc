@@ -4,8 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <utility>
 
+#include "base/json/json_writer.h"
+#include "experiments/analysis/predict/prediction_runs.h"
+#include "experiments/analysis/predict/prediction_text.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/heap/metrics.h"
@@ -96,6 +102,68 @@ TEST_F(MeasuredDrumTest, AnImageOfAnotherTestIsRefused) {
   drum_.rig_case.rig.camera->times = {0.1, 0.2};
   EXPECT_THAT(ErrorOf(R"({"map": "right.png"})"),
               HasSubstr("shows 1 picture where the case takes"));
+}
+
+// The run number r shows a bar of 100 + r pixels, each 1 mm².
+imaging::GrayImage Bar(int length) {
+  imaging::GrayImage image{
+      .width = 1000, .height = 1, .pixels = std::vector<std::uint8_t>(1000, 255)};
+  std::fill_n(image.pixels.begin(), length, std::uint8_t{0});
+  return image;
+}
+
+// Beside a bar that is far longer.
+Prediction BesideABar(int num_draws, int num_seeds) {
+  const auto count = static_cast<std::size_t>(num_draws);
+  PredictionRuns runs(
+      std::vector<double>(count, 1),
+      RunsOf({{.scale_factor = 1, .num_draws = num_draws, .num_seeds = num_seeds}}, count), 1);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    trials::TrialOutput output;
+    output.profile = Bar(100 + static_cast<int>(r));
+    runs.Add(r, output);
+  }
+  MeasuredProcess measured;
+  measured.profile.emplace();
+  measured.profile->image = Bar(900);
+  measured.profile->frame.pixel_size = 1e-3;
+  Prediction prediction;
+  prediction.draws.resize(count);
+  runs.Compare(measured, {}, prediction);
+  return prediction;
+}
+
+// The largest of seven distances holds fewer than 90 % of further ones; nor do three draws stand
+// for all sets.
+TEST(MeasuredImages, AreNotJudgedByAFewRuns) {
+  const auto image = [](int draws, int seeds) { return BesideABar(draws, seeds).image.value(); };
+  EXPECT_EQ(image(1, 8).is_inside, false);
+  EXPECT_EQ(image(4, 3).is_inside, false);
+  EXPECT_EQ(image(4, 3).nearest_is_inside, false);
+  EXPECT_GT(image(4, 3).sad_90_mm2, 1);
+  for (const auto& [draws, seeds] : {std::pair(1, 1), {1, 7}, {7, 1}, {3, 3}}) {
+    const MeasuredImage few = image(draws, seeds);
+    EXPECT_GT(few.sad_mm2, 700);
+    EXPECT_TRUE(std::isnan(few.sad_90_mm2));
+    EXPECT_FALSE(few.is_inside.has_value());
+    EXPECT_FALSE(base::ToJson(few).contains("is_inside"));
+    EXPECT_TRUE(base::ToJson(few).at("sad_90_mm2").is_null());
+  }
+  // Two runs are equally far from their mean: seven draws with two tell seven distances.
+  EXPECT_TRUE(image(7, 2).is_inside.has_value());
+  EXPECT_FALSE(image(7, 2).nearest_is_inside.has_value());
+  EXPECT_TRUE(image(8, 2).nearest_is_inside.has_value());
+}
+
+TEST(MeasuredImages, AreSaidNotToBeJudged) {
+  const auto text = [](int draws, int seeds) {
+    return PredictionText(BesideABar(draws, seeds), {});
+  };
+  EXPECT_THAT(text(1, 7), HasSubstr("tell how far others lie from it: it takes 8\n"));
+  EXPECT_THAT(text(3, 3), HasSubstr("it takes 8, of 4 draws or more\n"));
+  EXPECT_THAT(text(3, 3), testing::Not(HasSubstr("does not give it")));
+  EXPECT_THAT(text(4, 3), HasSubstr("mm² of 90 % of single runs; nearest is draw 4"));
+  EXPECT_THAT(text(4, 3), HasSubstr("and does not give it either"));
 }
 
 }  // namespace measured_process_test

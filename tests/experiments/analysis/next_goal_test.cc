@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "experiments/analysis/next/goal.h"
 #include "experiments/analysis/next/next_text.h"
+#include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/predict.h"
+#include "experiments/analysis/predict/predicted_case.h"
 #include "tests/experiments/next_fixture.h"
 
 namespace talus::analysis {
@@ -65,6 +67,44 @@ TEST_F(NextGoal, RunsOfAnEarlierPredictionServeAGoalAndAreNotMadeAgain) {
   const auto number = std::ranges::find(before.numbers, goal.number, &PredictedNumber::name);
   ASSERT_NE(number, before.numbers.end());
   EXPECT_EQ(goal.surrogate.left_out_error(), number->surrogate->left_out_error);
+}
+
+// No run at scale factor 1 ends well.
+class CoarseGrainsOnly : public campaign::FakeEngine {
+ public:
+  using FakeEngine::FakeEngine;
+  std::vector<std::string> Command(const fs::path& folder) override {
+    if (folder.filename().string().ends_with("_at_1")) return {"sh", "-c", "exit 3"};
+    return FakeEngine::Command(folder);
+  }
+};
+
+// The surrogate of runs at 2 was said to be for 1, where the density is 40 kg/m³ less, without a
+// note.
+TEST_F(NextGoal, AScaleFactorAtWhichNoRunHasEndedWellIsNotTold) {
+  const JointView view = Run();
+  const auto parts = [&] {
+    return campaign::CampaignParts{
+        .runner = campaign::MakeDrawnRunner(view.spec, view.folder.root),
+        .engine = std::make_unique<CoarseGrainsOnly>(
+            campaign::FakeEngineOptions{.density_scatter = 0.5, .density_by_scale = 40})};
+  };
+  const rigs::Case taps = ReadPredictedCase(view, Taps(), {}, 36, 0).rig_case;
+  const double coarse = CoreSecondsAt(view, taps, 2);
+  const double fine = CoreSecondsAt(view, taps, 1);
+  const Prediction p = Predict(
+      view,
+      {.file = Taps(), .num_draws = 12, .num_seeds = 3, .core_time = 36 * coarse + 6.5 * fine},
+      parts());
+  ASSERT_EQ(p.scale_factor, 2);
+  EXPECT_EQ(p.num_failed, 6);
+  EXPECT_EQ(p.target, 2);
+  ASSERT_TRUE(p.numbers.at(0).surrogate.has_value());
+  EXPECT_EQ(p.numbers[0].surrogate->scale_factor, 2);
+  EXPECT_THAT(p.notes, testing::Contains(HasSubstr("simulated at scale factor 2, where the answer "
+                                                   "is for 1: what coarse grains change in this "
+                                                   "test is not known")));
+  EXPECT_EQ(SimulateGoal(view, {.file = Taps()}, parts()).scale_factor, 2);
 }
 
 TEST_F(NextGoal, AGoalThatTheTestDoesNotMeasureNamesThoseThereAreAndCostsNothing) {

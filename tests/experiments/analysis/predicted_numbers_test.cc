@@ -238,6 +238,27 @@ TEST(Surrogate, NinetyPerCentHoldTheNextRunAtAScaleFactorThatNobodySimulated) {
   EXPECT_LT(width, 0.9 * width_of_draws);
 }
 
+// Three runs at 1.5 do not show what the scale factor changes: the number is told at 2, where all
+// draws ran, and by the runs there alone.
+TEST(Surrogate, FewerThanFourRunsAtAFinerScaleFactorDoNotCarryTheNumberOn) {
+  MadeUpProcess process(1);
+  Prediction p = process.Runs();
+  const auto number_with = [&](std::size_t num_runs) {
+    p.runs.resize(num_runs);
+    PredictedNumber number = p.numbers[0];
+    number.by_run.resize(num_runs);
+    std::optional<Spread> spread = process.spread();
+    AnswerBySurrogate(
+        p, {.space = MadeUpProcess::Space(), .points = Eigen::MatrixXd::Constant(1, 2, 0.5)},
+        number, spread);
+    return number;
+  };
+  EXPECT_EQ(number_with(36 + 4).surrogate->scale_factor, 1);
+  const PredictedNumber by_three = number_with(36 + 3);
+  EXPECT_EQ(by_three.surrogate->scale_factor, 2);
+  EXPECT_EQ(by_three.surrogate->left_out_error, number_with(36).surrogate->left_out_error);
+}
+
 // Twelve draws along a line of which the last third covers the plate: a plane through them would go
 // on to 1.5 at its end.
 TEST(Surrogate, TellsNoShareAboveOne) {

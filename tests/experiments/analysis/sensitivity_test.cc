@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files/file.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "tests/error_in.h"
 #include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/scratch_folder.h"
 
 namespace talus::analysis {
 namespace sensitivity_test {
@@ -105,6 +108,24 @@ TEST_F(SensitivityTest, ADiskThatIsFullIsNoFailureOfASimulation) {
   const SensitivityTable table = Find(view, {{"restitution", "0.6"}});
   EXPECT_EQ(Move(table, "restitution").num_failed, 0);
   EXPECT_TRUE(Of(Move(table, "restitution"), "rolling_friction").Exceeds());
+}
+
+// A move of which nothing is known was said to fit perfectly, and one number that no simulation
+// has to be shifted by 0, once the file was read again.
+TEST(Sensitivity, WhatIsNotKnownIsNullInTheFileAndWhenItIsRead) {
+  const ScratchFolder scratch;
+  const OutputShift undefined{.experiment = "heap", .output = "angle", .num_modes = 1};
+  WriteSensitivity(
+      {.moves = {{.name = "density", .why_not = "the engine's templates do not take it"},
+                 {.name = "filling", .outputs = {undefined}}}},
+      scratch.path());
+  const auto json = nlohmann::json::parse(base::ReadFile(SensitivityFile(scratch.path())));
+  EXPECT_TRUE(json["moves"][0]["implausibility_sd"].is_null());
+  EXPECT_TRUE(json["moves"][1]["outputs"][0]["shift_in_noise_sd"].is_null());
+  const SensitivityTable table = LoadSensitivity(scratch.path()).value();
+  EXPECT_TRUE(std::isnan(table.moves[0].implausibility));
+  EXPECT_FALSE(table.moves[0].FitsNoSet());
+  EXPECT_THAT(SensitivityText(table), HasSubstr("angle not known, as simulations have no value"));
 }
 
 // The answer jumped within a wide region, and a move that no output had felt was blamed for it.

@@ -318,7 +318,32 @@ TEST(Alarms, ARunThatDiffersMoreThanTheOthersDoIsFound) {
 TEST(Alarms, TheScatterOfAMeanProfileIsTakenOutOfIt) {
   Answer answer = ConfirmedAt(std::hypot(4.2, 3.5));
   HeapOf(answer).profile_sad_mm2 = std::sqrt(4.2 * 4.2 + 3.5 * 3.5 / 3);
-  EXPECT_NEAR(SadWithoutScatter(HeapOf(answer)), 4.2, 1e-9);
+  EXPECT_NEAR(SadWithoutScatter(answer.experiments[0], HeapOf(answer)), 4.2, 1e-9);
+}
+
+// A single seed's scatter is a part of its SAD, and was taken for the set's.
+TEST(Alarms, OneSeedDoesNotTellThatASetIsWorseThanPredicted) {
+  Answer answer = ConfirmedAt(8);
+  EXPECT_THAT(PredictionAlarms(answer), SizeIs(1));
+  HeapOf(answer).num_trials = 1;
+  EXPECT_THAT(PredictionAlarms(answer), IsEmpty());
+}
+
+// One photograph of one heap is as far from a mean heap as from another of its kind, and farther
+// than pictures of sixteen views are from each other.
+TEST(Alarms, ASinglePhotographIsNotMissedForItsOwnScatter) {
+  Answer answer = ConfirmedAt(4);
+  ResultExperiment& heap = answer.experiments[0];
+  heap.powder_area = 40;
+  HeapOf(answer).profile_sad_mm2 = 4;
+  HeapOf(answer).spread_mm2 = 1.2;
+  EXPECT_EQ(ImageFit(answer, heap).meets, Meets::kNo);  // of 2, a twentieth of its area
+  heap.views_per_photograph = 16;
+  EXPECT_NEAR(SadWithoutScatter(heap, HeapOf(answer)), std::sqrt(16 - 1.2 * 1.2 * 2 / 9), 1e-9);
+  EXPECT_EQ(ImageFit(answer, heap).meets, Meets::kUnknown);
+  heap.views_per_photograph = 1;
+  HeapOf(answer).num_trials = 1;
+  EXPECT_EQ(ImageFit(answer, heap).meets, Meets::kUnknown);
 }
 
 TEST(Alarms, AnAnswerThreeStandardDeviationsOffContradictsItsPrior) {
