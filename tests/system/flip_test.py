@@ -98,7 +98,7 @@ def check(talus, folder, state, good, dice):
 
 
 def main():
-    arguments = chance_arguments("flips", 12)
+    arguments = chance_arguments("flips", 6)
     talus, dice = arguments.talus, random.Random(arguments.seed)
     noticed, good = dict.fromkeys(GOES_ON, 0), {}
     with tempfile.TemporaryDirectory() as name:

@@ -20,7 +20,7 @@ from quick_campaign import PILE
 
 TALUS, FULL_DISK, SOURCE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 # How many writes of a verb fail: every one if it has no more, else as many spread over all.
-MOST_MOMENTS = int(os.environ.get("TALUS_FULL_DISK_MOMENTS", 10))
+MOST_MOMENTS = int(os.environ.get("TALUS_FULL_DISK_MOMENTS", 6))
 
 SPEC = {
     "name": "quick",
