@@ -43,6 +43,11 @@ class Optimize : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
   }
 
+  // A search of the unit square with these keys.
+  void WriteProblem(const std::string& keys) {
+    Write("problem.json", "{" + keys + ", \"parameters\": " + std::string(kUnitSquare) + "}");
+  }
+
   // Exit status of a command in the test's folder; what it prints is in out_ and errors_.
   int Run(const std::string& command) {
     const std::string all =
@@ -191,7 +196,7 @@ TEST_F(Optimize, AMendedCommandThatIsInterruptedDoesNotBringTheFailuresBack) {
 
 // Every sixth evaluation prints a stray line, nothing, NaN, 1e400 or null.
 TEST_F(Optimize, SenselessAnswersAreFailedEvaluations) {
-  Write("problem.json", "{\"evaluations\": 30, \"parameters\": " + std::string(kUnitSquare) + "}");
+  WriteProblem(R"("evaluations": 30, "strategy": {"stop_multiple": 0})");
   ASSERT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "moody"), 0) << errors_;
   const json result = json::parse(base::ReadFile(folder_ / "search/result.json"));
   EXPECT_EQ(result["evaluations"], 30);
@@ -349,7 +354,7 @@ TEST_F(Optimize, AFailureSaysWhatTheCommandSaidLast) {
 
 // Five failures were kept as facts about the parameters, since only eight end a longer search.
 TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllOfAFewHadFailed) {
-  Write("problem.json", "{\"evaluations\": 5, \"parameters\": " + std::string(kUnitSquare) + "}");
+  WriteProblem(R"("evaluations": 5)");
   Write("ask.sh", "test -e mended && exec " + kCommand + "bowl; exit 3\n");
   const std::string arguments = "problem.json --out search --quiet -- sh ask.sh";
   ASSERT_EQ(Talus(arguments), 1);
@@ -361,15 +366,10 @@ TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllOfAFewHadFailed) {
 
 // The last evaluations of an incomplete batch were made again, since others were asked for.
 TEST_F(Optimize, OtherWorkersGoOnFromTheEvaluationsThereAre) {
-  const auto write = [&](int evaluations, int workers) {
-    Write("problem.json", "{\"evaluations\": " + std::to_string(evaluations) +
-                              ", \"workers\": " + std::to_string(workers) +
-                              ", \"parameters\": " + std::string(kUnitSquare) + "}");
-  };
   const std::string search = "problem.json --out search --quiet -- " + kCommand + "bowl";
-  write(11, 1);
+  WriteProblem(R"("evaluations": 11, "workers": 1)");
   ASSERT_EQ(Talus(search), 0) << errors_;
-  write(16, 4);
+  WriteProblem(R"("evaluations": 16, "workers": 4)");
   ASSERT_EQ(Talus(search), 0) << errors_;
   std::ifstream log(folder_ / "search/evaluations.jsonl");
   int count = 0;
@@ -384,14 +384,11 @@ TEST_F(Optimize, OtherWorkersGoOnFromTheEvaluationsThereAre) {
 
 // 60 of its 512 points are all at a = 0, which was then said to lie on a's bound.
 TEST_F(Optimize, AGridBeyondItsEvaluationsIsRefusedAndABoundNeverLeftIsNoNews) {
-  const std::string grid =
-      ", \"strategy\": {\"kind\": \"grid\", \"levels\": [1, 3], "
-      "\"refine_best\": 0}, \"parameters\": " +
-      std::string(kUnitSquare) + "}";
-  Write("problem.json", "{\"evaluations\": 2" + grid);
+  const std::string grid = R"(, "strategy": {"kind": "grid", "levels": [1, 3], "refine_best": 0})";
+  WriteProblem(R"("evaluations": 2)" + grid);
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "bowl"), 2);
   EXPECT_THAT(errors_, HasSubstr("strategy.levels: make a grid of 3 points for 2 evaluations"));
-  Write("problem.json", "{\"evaluations\": 3" + grid);
+  WriteProblem(R"("evaluations": 3)" + grid);
   ASSERT_EQ(Talus("problem.json --quiet -- " + kCommand + "bowl"), 0) << errors_;
   const json result = json::parse(out_);
   EXPECT_TRUE(result["correlation"].is_null());  // no model knows of any
