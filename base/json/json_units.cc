@@ -45,7 +45,8 @@ void RequireUnit(const json& value, const std::string& unit, std::string_view pl
   if (bare.empty()) return;
   if (unit == "%") return problems.AddUnread(place, RemedyInPercent(bare));
   problems.AddUnread(place, "is " + bare + " without a unit beside one in " + unit +
-                                "; a bare number is in SI: write \"" + bare + " " + unit + "\"");
+                                "; a bare number is in SI: write \"" + bare + " " + unit +
+                                "\", or give it the SI unit that it has");
 }
 
 }  // namespace

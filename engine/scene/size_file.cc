@@ -74,9 +74,10 @@ double UnitOf(const std::filesystem::path& path, const std::string& title,
 }
 
 // What one sieve has retained is a class; cumulated from the coarsest down it is what is coarser.
-bool IsRetained(const std::string& title) { return HasAny(title, {"retained"}); }
+bool IsRetained(const std::string& title) { return HasAny(title, {"retained", "r\u00fcckstand"}); }
 bool IsOfCoarser(const std::string& title) {
-  return HasAny(title, {"over", ">", "coarser"}) || (IsRetained(title) && HasAny(title, {"cum"}));
+  return HasAny(title, {"over", ">", "coarser"}) ||
+         (IsRetained(title) && HasAny(title, {"cum", "sum"}));
 }
 bool IsOfFiner(const std::string& title) {
   return !IsOfCoarser(title) &&
@@ -90,7 +91,9 @@ bool IsOfClasses(const std::string& title) {
          BeginsWithAny(title, {"differential", "freq", "density", "class", "channel"});
 }
 // What lies on a sieve is coarser than its mesh.
-bool IsOfSieves(const std::string& title) { return HasAny(title, {"sieve", "mesh", "opening"}); }
+bool IsOfSieves(const std::string& title) {
+  return HasAny(title, {"sieve", "mesh", "opening", "aperture", "maschenweite"});
+}
 // Per length, or per decade: no share of a class.
 bool IsDensity(const std::string& title) {
   return BeginsWithAny(title, {"q3", "q0"}) && title.find('%') == std::string::npos;
@@ -109,6 +112,13 @@ bool IsOfDiameters(const std::string& title) {
   RefuseSizeFile(path,
                  "has only a cumulative share of what is coarser, or a density q(x); export what "
                  "is finer, or the share of each class");
+}
+
+// Words of the head stand above the titles, in their columns: where the last line of titles says
+// what the columns are, they do not count.
+const std::string& OwnTitle(const SizeTable& table, std::size_t column) {
+  const bool is_complete = std::ranges::any_of(table.last_titles, IsOfDiameters);
+  return (is_complete ? table.last_titles : table.titles)[column];
 }
 
 struct Columns {
@@ -135,9 +145,12 @@ Columns Find(const std::filesystem::path& path, const SizeTable& table) {
   const auto is_of_classes = [&](const std::string& t) {
     return is_share(t) && !IsOfCoarser(t) && !IsDensity(t);
   };
-  if (!columns.cumulative) {  // a table of sieves may have their numbers beside their meshes
-    columns.share =
-        find([&](const std::string& t) { return is_of_classes(t) && !IsOfDiameters(t); });
+  if (!columns.cumulative) {  // a table of sieves may have their numbers and weights, too
+    columns.share = find([&](const std::string& t) { return is_of_classes(t) && IsRetained(t); });
+    if (columns.share == num_columns) {
+      columns.share =
+          find([&](const std::string& t) { return is_of_classes(t) && !IsOfDiameters(t); });
+    }
     if (columns.share == num_columns) columns.share = find(is_of_classes);
   }
   if (columns.share == num_columns) RefuseCoarser(path);
@@ -155,7 +168,7 @@ bool IsAll(double sum) { return std::abs(sum - 100) < 0.5 || std::abs(sum - 1) <
 // its numbers add up to that: then one class holds all.
 bool LooksCumulative(const std::vector<double>& shares, const std::string& title) {
   return !IsOfClasses(title) && std::is_sorted(shares.begin(), shares.end()) &&
-         IsAll(shares.back()) && !IsAll(SumOf(shares));
+         IsAll(shares.back()) && SumOf(shares) > 1.005 * shares.back();
 }
 
 // A sum of more than all there is: each share holds those of the coarser sieves.
@@ -211,12 +224,12 @@ struct Points {
 
 Points PointsOf(const std::filesystem::path& path, const SizeTable& table, const Columns& columns,
                 double unit) {
-  const bool has_pan = IsOfSieves(table.titles[columns.diameter]);
+  const bool has_pan = IsOfSieves(OwnTitle(table, columns.diameter));
   std::vector<std::pair<double, double>> sorted;  // some instruments list the coarse end first
   Points points;
   for (const auto& [row, line] : table.rows) {
     const double diameter = row.size() > columns.diameter ? row[columns.diameter] : -1;
-    const bool is_pan = has_pan && diameter == 0;
+    const bool is_pan = has_pan && row.size() > columns.diameter && diameter <= 0;
     if (!(diameter > 0) && !is_pan) continue;
     const double share = row.size() > columns.share ? row[columns.share] : 0;
     if (!std::isfinite(share)) {
@@ -245,7 +258,12 @@ void SetClasses(Points points, const std::string& title, SizeDistribution& sizes
   sizes.shares = std::move(points.shares);
   if (points.in_pan == 0) return;
   const auto& d = points.diameters;
-  sizes.diameters.insert(sizes.diameters.begin(), d[0] * d[0] / d[1]);
+  const double finest = d[0] * d[0] / d[1];
+  if (sizes.diameters.front() <= finest) {  // of upper edges: the finest class is below them all
+    sizes.shares.front() += points.in_pan;
+    return;
+  }
+  sizes.diameters.insert(sizes.diameters.begin(), finest);
   sizes.shares.insert(sizes.shares.begin(), points.in_pan);
 }
 
@@ -263,13 +281,13 @@ void ReadSizeText(std::string text, SizeDistribution& sizes) {
   const std::string& title = table.titles[columns.diameter];
   const std::string& share_title = table.titles[columns.share];
   Points points = PointsOf(path, table, columns, UnitOf(path, title, table.title_line));
-  if (columns.cumulative || LooksCumulative(points.shares, share_title)) {
+  if (columns.cumulative || LooksCumulative(points.shares, OwnTitle(table, columns.share))) {
     sizes.kind = SizeKind::kCumulative;
     sizes.diameters = std::move(points.diameters);
     sizes.shares = std::move(points.shares);
   } else {
     if (LooksCumulatedOverSieves(points.shares, share_title)) RefuseCoarser(path);
-    SetClasses(std::move(points), title, sizes);
+    SetClasses(std::move(points), OwnTitle(table, columns.diameter), sizes);
   }
   if (HasAny(share_title, {"number", "q0", "Q0"})) sizes.by = Weighting::kNumber;
   if (HasAny(share_title, {"volume", "q3", "Q3"})) sizes.by = Weighting::kVolume;

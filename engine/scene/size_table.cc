@@ -86,7 +86,8 @@ bool IsNone(const std::string& field) {
 
 // The size of what has passed every sieve, as tables of sieves write it.
 bool IsPan(const std::string& field) {
-  return field == "pan" || field == "receiver" || field == "bottom" || field == "boden";
+  const bool is_below = field.starts_with("<") && std::isfinite(Number(field.substr(1)));
+  return is_below || field == "pan" || field == "receiver" || field == "bottom" || field == "boden";
 }
 
 char SeparatorOf(std::string_view text) {
@@ -160,6 +161,8 @@ class TableReader {
         table_.titles[c] += row[c] + ' ';
       }
     }
+    if (!above_.empty()) table_.last_titles = above_.back();
+    table_.last_titles.resize(num_columns);
     return std::move(table_);
   }
 

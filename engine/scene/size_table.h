@@ -17,7 +17,8 @@ struct SizeRow {
 struct SizeTable {
   std::string title_line;           // the last line of titles, in lower case
   std::vector<std::string> titles;  // of the columns, in lower case; units of a line below appended
-  std::vector<SizeRow> rows;        // two at least
+  std::vector<std::string> last_titles;  // the same of the last line alone
+  std::vector<SizeRow> rows;             // two at least
 };
 
 // The first block of lines with two numbers or more. Throws ConfigError that names the file, the

@@ -273,7 +273,10 @@ void Campaign::Collect(journal::TrialRecord& trial) {
   if (const auto missing = MissingNumber(ReferenceOf(trial), output.scalars)) {
     const bool any = std::ranges::count(planner_.trials(), journal::TrialStatus::kOk,
                                         &journal::TrialRecord::status) > 0;
-    parts_.engine->Forget(folder_.trial(trial.id));  // who resumes may have mended the program
+    // Who resumes may have mended the program: what it has left for the others does not count, too.
+    parts_.engine->Forget(folder_.trial(trial.id));
+    for (const auto& [id, other] : running_) parts_.engine->Forget(folder_.trial(id));
+    for (const auto& other : waiting_) parts_.engine->Forget(folder_.trial(other.id));
     StopForNumber(trial, *missing, any && spec_.engine.kind == EngineKind::kCommand);
   }
   std::optional<imaging::GrayImage> profile;

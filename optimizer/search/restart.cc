@@ -64,8 +64,7 @@ History Without(const History& history, const std::vector<bool>& left_out) {
 
 }  // namespace
 
-bool HasConverged(const History& history, int num_before) {
-  const Eigen::Index patience = 2 * history.points.cols();
+bool HasConverged(const History& history, int num_before, Eigen::Index patience) {
   const Eigen::Index before = history.values.size() - patience;
   if (before < num_before) return false;
   const double gain = history.values.head(before).minCoeff() - history.values.minCoeff();
@@ -73,12 +72,12 @@ bool HasConverged(const History& history, int num_before) {
   Eigen::Index best = 0;
   history.values.minCoeff(&best);
   const auto apart = (history.points.rowwise() - history.points.row(best)).rowwise().norm();
-  return (apart.array() < kNear).count() > patience;
+  return (apart.array() < kNear).count() > 2 * history.points.cols();
 }
 
 std::optional<Elsewhere> RestartElsewhere(const History& history, const Domain& domain,
                                           int num_before) {
-  if (!HasConverged(history, num_before)) return std::nullopt;
+  if (!HasConverged(history, num_before, 2 * history.points.cols())) return std::nullopt;
   const std::vector<bool> basin = BasinOfBest(history);
   Elsewhere elsewhere{.history = Without(history, basin), .domain = domain};
   if (elsewhere.history.values.size() < 2 * history.points.cols() + 2) return std::nullopt;

@@ -19,8 +19,9 @@ struct Elsewhere {
   Domain domain;    // the points nearer to them
 };
 
-// As above; `num_before` evaluations are from before the first step.
-bool HasConverged(const History& history, int num_before);
+// As above, or with more patience: the latest `patience` evaluations have gained nothing.
+// `num_before` evaluations are from before the first step.
+bool HasConverged(const History& history, int num_before, Eigen::Index patience);
 
 // For a deterministic objective; `num_before` evaluations of it from before the first step. Nothing
 // while the search gets on, or where too few evaluations lie elsewhere for a step to stand on.

@@ -27,6 +27,9 @@ constexpr double kSafe = 0.7;
 // Without noise a process has a floor that keeps it solvable, and knows no point better than that.
 // Gains of less than so many of its bounds are none that it could promise.
 constexpr double kFloors = 5;
+// Evaluations without a gain, times the parameters, after which such a search ends: every second of
+// them looks for another basin, which a process that is smooth in the first does not foresee.
+constexpr int kPatience = 20;
 
 ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, const Domain& domain,
                  std::uint64_t seed) {
@@ -144,7 +147,10 @@ std::optional<StopReason> ScalarSearch::WhyStop(const SearchRecord& record) {
       return reason;
     }
     const bool is_unseen = fit.transform.Forward(lowest) - bound < kFloors * kBoundSds * noise;
-    if (!is_unseen || !HasConverged(record.history(), NumBefore(record))) return std::nullopt;
+    const Eigen::Index patience = kPatience * record.domain().num_parameters;
+    if (!is_unseen || !HasConverged(record.history(), NumBefore(record), patience)) {
+      return std::nullopt;
+    }
     return StopReason{.rule = StopRule::kConverged, .name = "the search"};
   }
   const Moments best = model.Predict(Best(record).transpose());

@@ -356,17 +356,35 @@ TEST(ScalarStrategy, AnExactSearchOfABowlEndsByItself) {
     for (const int batch : {1, 2}) {
       ScalarStrategy strategy({.num_parameters = d}, {.exact = true, .seed = 1});
       int count = 0;
-      while (count < 100 && !(count > 0 && strategy.WhyStop())) {
+      while (count < 150 && !(count > 0 && strategy.WhyStop())) {
         for (const Proposal& proposal : strategy.Ask(batch, {})) {
           const double value = (proposal.point.array() - 0.31).square().sum();
           strategy.Tell({.point = proposal.point, .value = value, .field = {}});
           ++count;
         }
       }
-      EXPECT_LT(count, 100) << d << ' ' << batch;
+      EXPECT_LT(count, 150) << d << ' ' << batch;
       EXPECT_NEAR((strategy.Recommend().point.array() - 0.31).matrix().norm(), 0, 1e-3);
     }
   }
+}
+
+// It ended as soon as one basin was polished, before it had looked for another.
+TEST(ScalarStrategy, AnExactSearchLooksForOtherBasinsBeforeItEnds) {
+  const auto narrow = [](const Eigen::VectorXd& x, double a, double b) {
+    const double r2 = std::pow(x[0] - a, 2) + std::pow(x[1] - b, 2);
+    return (x.array() - 0.3).square().sum() - 3 * std::exp(-r2 / 0.01);
+  };
+  int num_found = 0;
+  for (const auto& [a, b] : {std::pair(0.15, 0.85), {0.6, 0.7}, {0.5, 0.95}}) {
+    ScalarStrategy strategy({.num_parameters = 2}, {.exact = true, .seed = 1});
+    for (int count = 0; count < 100 && !(count > 0 && strategy.WhyStop()); ++count) {
+      const Eigen::VectorXd x = strategy.Ask(1, {}).at(0).point;
+      strategy.Tell({.point = x, .value = narrow(x, a, b), .field = {}});
+    }
+    num_found += narrow(strategy.Recommend().point, a, b) < -2;
+  }
+  EXPECT_EQ(num_found, 3);
 }
 
 }  // namespace scalar_strategy_test

@@ -359,6 +359,7 @@ TEST_F(Optimize, AMendedCommandIsAskedAgainWhereAllOfAFewHadFailed) {
   const std::string arguments = "problem.json --out search --quiet -- sh ask.sh";
   ASSERT_EQ(Talus(arguments), 1);
   EXPECT_THAT(errors_, HasSubstr("the first 5 evaluations have all failed"));
+  WriteProblem(R"("evaluations": 20)");  // more than it had given up after
   Write("mended", "");
   ASSERT_EQ(Talus(arguments), 0) << errors_;
   EXPECT_EQ(json::parse(base::ReadFile(folder_ / "search/result.json"))["failed"], 0);

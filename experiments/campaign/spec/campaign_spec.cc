@@ -42,7 +42,8 @@ void ValidateSearch(const CampaignSpec& spec, base::Problems& problems) {
     const auto num_parameters = static_cast<int>(space.Free().size());
     spec.strategy.ValidateFor(num_parameters, space.IsContinuous(), problems);
     if (space.constraints.empty() && spec.budget.simulations > 0) {
-      spec.strategy.ValidateGrid(num_parameters, spec.budget.simulations, problems);
+      const int num_sets = spec.budget.simulations / std::max(1, spec.replicates);
+      spec.strategy.ValidateGrid(num_parameters, num_sets, problems);
     }
   });
 }

@@ -117,6 +117,7 @@ class OptimizeLoop {
   }
 
   [[noreturn]] void AllFailed() const {
+    if (folder_) folder_->NoteGivenUp();
     throw base::Error("the first " + std::to_string(num_told()) +
                       " evaluations have all failed, the last: " + last_failure_);
   }

@@ -27,6 +27,7 @@ using json = nlohmann::ordered_json;
 constexpr const char* kProblem = "problem.json";
 constexpr const char* kRecommendation = "result.json";
 constexpr const char* kLog = "evaluations.jsonl";
+constexpr const char* kGivenUp = "gave_up";
 constexpr const char* kImageChecksum = "image_checksum_xxh3";
 
 std::string ChecksumOf(const std::string& bytes) { return base::Hex(base::Checksum(bytes)); }
@@ -155,7 +156,8 @@ void OptimizeFolder::Load(int num_before) {
       recorded_, [](const auto& known) { return !known.second.observation.failed; });
   // The command was wrong, and has been mended since; what failed says nothing of the parameters,
   // now or when the mended one has succeeded.
-  if (!any && num_recorded() >= std::min(num_before, kHopeless)) {
+  const bool gave_up = std::filesystem::remove(root_ / kGivenUp);
+  if (!any && (gave_up || num_recorded() >= std::min(num_before, kHopeless))) {
     recorded_.clear();
     asked_.clear();
     kept = 0;
@@ -175,6 +177,8 @@ std::optional<Evaluated> OptimizeFolder::Recorded(int number) const {
   const auto found = recorded_.find(number);
   return found == recorded_.end() ? std::nullopt : std::optional(found->second);
 }
+
+void OptimizeFolder::NoteGivenUp() const { base::WriteFileAtomically(root_ / kGivenUp, ""); }
 
 int OptimizeFolder::NumToTell() const {
   int complete = 0;

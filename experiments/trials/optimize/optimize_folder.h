@@ -44,6 +44,9 @@ class OptimizeFolder {
 
   void WriteResult(const std::string& json) const;
 
+  // All evaluations have failed: whoever gives the same command again has mended it.
+  void NoteGivenUp() const;
+
  private:
   struct Asking {
     int after = 0;

@@ -209,6 +209,41 @@ TEST(SizeFile, WhatAllCoarserSievesRetainedIsNoClass) {
   }
 }
 
+// Words of a head were taken for those of the titles below.
+TEST(SizeFile, AHeadAboveTheTitlesDoesNotChangeThem) {
+  EXPECT_EQ(
+      ReadText("Powder;class A\nSize (um);Volume (%)\n200;10\n400;50\n600;90\n800;100\n").kind,
+      SizeKind::kCumulative);
+  const std::string rows = "\n200;10\n400;40\n600;40\n800;10\n";
+  const SizeDistribution plain = ReadText("Size (um);Volume" + rows);
+  EXPECT_EQ(ReadText("Sieve fraction;200-800 um\nSize (um);Volume" + rows).diameters,
+            plain.diameters);
+}
+
+TEST(SizeFile, TablesOfSievesAreReadAsTheyAreWritten) {
+  const std::vector<double> shares{10, 30, 50, 10};
+  for (const char* table :
+       {"Maschenweite (um);R\u00fcckstand (%)\n800;0\n600;10\n400;50\n200;30\nBoden;10\n",
+        "Sieve (um),Empty (g),Retained "
+        "(g)\n800,500,0\n600,400,10\n400,300,50\n200,300,30\n<200,200,10\n",
+        "Mesh No;Aperture (um);Volume In "
+        "%\n20;800;0\n30;600;10\n40;400;50\n70;200;30\n0;-200;10\n"}) {
+    EXPECT_EQ(ReadText(table).shares, shares) << table;
+    EXPECT_NEAR(SizeCurve(ReadText(table)).VolumeQuantile(0.4), 400e-6, 1e-9) << table;
+  }
+  const SizeDistribution upper = ReadText("Upper sieve (mm),Mass (g)\n0.8,40\n0.4,50\nPan,10\n");
+  EXPECT_EQ(upper.shares, (std::vector<double>{60, 40}));
+}
+
+// 150 shares of a curve that happen to add up to a hundred.
+TEST(SizeFile, ACurveStaysOneWhateverItsSum) {
+  std::string text = "Size (um),share\n";
+  for (int i = 0; i <= 150; ++i) {
+    text += std::to_string(100 + 5 * i) + "," + std::to_string(0.997 * std::sqrt(i / 150.0)) + "\n";
+  }
+  EXPECT_EQ(ReadText(text).kind, SizeKind::kCumulative);
+}
+
 // A narrow powder, all in one class, was taken for a curve from 400 to 500 µm.
 TEST(SizeFile, ClassesThatRiseToAHundredAreNoCurve) {
   for (const char* table :
