@@ -77,16 +77,16 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
                            ? base::kNoLocks
                            : ": another process works on this search; end it first, or wait"));
   }
-  Load(CheckProblem(command));
+  CheckProblem(command);
+  Load();
   std::filesystem::remove(root_ / kRecommendation);  // of a search that had ended, and goes on
   log_ = Open(root_ / kLog, O_WRONLY | O_APPEND);
 }
 
-int OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
+void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
   const std::filesystem::path path = root_ / kProblem;
   const json now = base::ToJson(problem_);
   const json read = ReadFiles(problem_);
-  int num_before = 0;
   if (std::filesystem::exists(path)) {
     const std::string bytes = base::ReadFile(path);
     const std::optional<std::string> text = base::IfWhole(bytes);
@@ -105,11 +105,9 @@ int OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const 
                               base::JsonText(before["command"]) +
                               "; give that one, or another folder as --out");
     }
-    num_before = before["problem"].value("evaluations", 0);
   }
   const json both{{"problem", now}, {"read", read}, {"command", command}};
   base::WriteFileAtomically(path, base::WithChecksum(base::JsonText(both, 2) + "\n"));
-  return num_before;
 }
 
 std::filesystem::path OptimizeFolder::ImagePath(int number) const {
@@ -118,7 +116,7 @@ std::filesystem::path OptimizeFolder::ImagePath(int number) const {
 
 // A line that a kill has cut off is no evaluation: it is taken away, and made again. One that was
 // damaged since would be another answer.
-void OptimizeFolder::Load(int num_before) {
+void OptimizeFolder::Load() {
   const std::filesystem::path path = root_ / kLog;
   if (!std::filesystem::exists(path)) return;
   const std::string text = base::ReadFile(path);
@@ -157,7 +155,7 @@ void OptimizeFolder::Load(int num_before) {
   // The command was wrong, and has been mended since; what failed says nothing of the parameters,
   // now or when the mended one has succeeded.
   const bool gave_up = std::filesystem::remove(root_ / kGivenUp);
-  if (!any && (gave_up || num_recorded() >= std::min(num_before, kHopeless))) {
+  if (!any && (gave_up || num_recorded() >= kHopeless)) {
     recorded_.clear();
     asked_.clear();
     kept = 0;

@@ -54,9 +54,8 @@ class OptimizeFolder {
   };
 
   std::filesystem::path ImagePath(int number) const;
-  // How many evaluations the search before was to make; 0 where there was none.
-  int CheckProblem(const std::vector<std::string>& command) const;
-  void Load(int num_before);
+  void CheckProblem(const std::vector<std::string>& command) const;
+  void Load();
   // Throws where the image of an evaluation is not the one that was answered.
   void CheckImage(int number, const std::string& checksum, int line_number) const;
 
