@@ -1,7 +1,6 @@
 #include "experiments/campaign/run_cases.h"
 
 #include <algorithm>
-#include <charconv>
 #include <exception>
 #include <optional>
 #include <string>
@@ -10,8 +9,8 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
-#include "base/text/number_text.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/folder/time_taken.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/rigs/case/run_files.h"
@@ -41,8 +40,7 @@ void Start(const runners::Job& job, runners::Runner& runner) {
 
 void KeepTime(const runners::FinishedJob& job, int num_cores, const fs::path& folder) {
   const double seconds = job.cpu_time > 0 ? job.cpu_time : job.duration * num_cores;
-  base::WriteFileAtomically(folder / rigs::kTookFile,
-                            base::ExactNumber(TimeTaken(folder) + std::max(0.0, seconds)));
+  KeepTimeTaken(folder, TimeTaken(folder) + std::max(0.0, seconds));
 }
 
 bool HasMark(const fs::path& folder) { return fs::exists(folder / rigs::kFailedFile); }
@@ -124,15 +122,6 @@ void StopIfSetUpFailed(const runners::FinishedJob& job, const fs::path& folder,
 }
 
 }  // namespace
-
-double TimeTaken(const fs::path& folder) {
-  const fs::path file = folder / rigs::kTookFile;
-  if (!fs::exists(file)) return 0;
-  const std::string text = base::ReadFile(file);
-  double seconds = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return seconds;
-}
 
 CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine) {
   CaseOutcome outcome{.core_time = TimeTaken(run.folder)};

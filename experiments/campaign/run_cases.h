@@ -37,9 +37,6 @@ struct CaseOutcome {
 };
 CaseOutcome OutcomeOf(const FolderCase& run, trials::TrialEngine& engine);
 
-// Core time of all attempts at the case of a folder so far, however they have ended [s].
-double TimeTaken(const std::filesystem::path& folder);
-
 // False when the user ended it; what has ended is kept.
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts);
 // The same where somebody listens to the user already.

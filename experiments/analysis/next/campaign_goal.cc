@@ -16,6 +16,7 @@
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/folder/time_taken.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -132,7 +133,7 @@ DesignRecord CampaignGoal::DesignOf(const campaign::JointView& view, const Eigen
   wanted.points = ChooseDraws(draws, is_first ? kFirstRuns : kMoreRuns, view.spec.seed).points;
   const double taken = campaign::LookCoreTime(look.root);  // by runs that say nothing now
   look.Make(wanted);
-  if (taken > 0) campaign::KeepLookCoreTime(look.root, taken);
+  if (taken > 0) campaign::KeepTimeTaken(look.root, taken);
   return wanted;
 }
 

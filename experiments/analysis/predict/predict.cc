@@ -30,6 +30,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
+#include "experiments/campaign/folder/time_taken.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/heap/film_strip.h"

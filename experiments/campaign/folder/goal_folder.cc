@@ -1,16 +1,14 @@
 #include "experiments/campaign/folder/goal_folder.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
-#include "base/text/number_text.h"
 #include "experiments/campaign/folder/record_file.h"
+#include "experiments/campaign/folder/time_taken.h"
 #include "experiments/campaign/spec/campaign_spec.h"
-#include "experiments/rigs/case/run_files.h"
 #include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
@@ -18,16 +16,6 @@ namespace {
 
 constexpr const char* kGoalFile = "goal.json";
 constexpr std::int64_t kFirstLook = 16;  // number of ended trials
-
-// Core time that a folder says its runs took [s].
-double NotedTime(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / rigs::kTookFile;
-  if (!std::filesystem::exists(file)) return 0;
-  const std::string text = base::ReadFile(file);
-  double seconds = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return seconds;
-}
 
 bool IsJudgedWith(const CampaignSpec& spec, const GoalState& state) {
   const GoalState now = NewGoalState(spec, state.after);
@@ -51,10 +39,10 @@ std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campai
 }
 
 double LookCoreTime(const std::filesystem::path& look) {
-  double seconds = NotedTime(look);  // of runs that were removed
+  double seconds = TimeTaken(look);  // of runs that were removed
   if (!std::filesystem::is_directory(look / "trials")) return seconds;
   for (const auto& entry : std::filesystem::directory_iterator(look / "trials")) {
-    if (entry.is_directory()) seconds += NotedTime(entry.path());
+    if (entry.is_directory()) seconds += TimeTaken(entry.path());
   }
   return seconds;
 }
@@ -63,10 +51,6 @@ double GoalCoreTime(const std::filesystem::path& campaign) {
   double seconds = 0;
   for (const std::filesystem::path& look : GoalLooks(campaign)) seconds += LookCoreTime(look);
   return seconds;
-}
-
-void KeepLookCoreTime(const std::filesystem::path& look, double seconds) {
-  base::WriteFileAtomically(look / rigs::kTookFile, base::ExactNumber(seconds));
 }
 
 GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after) {

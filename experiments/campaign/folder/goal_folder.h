@@ -51,8 +51,6 @@ std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campai
 double GoalCoreTime(const std::filesystem::path& campaign);
 // The same of one look.
 double LookCoreTime(const std::filesystem::path& look);
-// That of a look's runs that were removed, to be counted with the others [s].
-void KeepLookCoreTime(const std::filesystem::path& look, double seconds);
 
 // What a look begins with.
 GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after);
