@@ -114,9 +114,7 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   spec.budget.core_time =
       core_time.OfSearch(trials) + options.core_time.value_or(core_time.OfTold(trials));
   // The runs of a goal count against the budget, too.
-  if (const auto goal = LastGoal(opened.folder.root, opened.spec)) {
-    *spec.budget.core_time += goal->core_time;
-  }
+  *spec.budget.core_time += GoalCoreTime(opened.folder.root, opened.spec);
   const TakenOver taken = TakeOverDesigns(opened.folder, trials,
                                           {.spec = spec,
                                            .index = static_cast<int>(references.size()) - 1,

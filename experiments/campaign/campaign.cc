@@ -72,7 +72,7 @@ CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
   if (!StayEnded()) NoteProgress();
   RunFailedAgain();
   TellFinished();
-  if (parts_.goal) NoteFormerGoal();
+  NoteFormerGoal();
   TakeUpRunning();
   CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
@@ -104,6 +104,7 @@ void Campaign::NoteFormerGoal() {
   std::optional<GoalState> goal = LastGoal(folder_.root, spec_);
   if (goal) goal->failure.clear();
   planner_.NoteGoal(std::move(goal));
+  planner_.NoteGoalTime(GoalCoreTime(folder_.root, spec_));
 }
 
 // Once the search is past its first design, after 16, 24, 36, … trials have ended.
@@ -375,9 +376,8 @@ void Campaign::ShowTrouble() {
 }
 
 void Campaign::ShowStatus() {
-  const BudgetUse use =
-      UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()),
-            planner_.goal() ? planner_.goal()->core_time : 0);
+  const BudgetUse use = UseOf(spec_, planner_.trials(), Elapsed(),
+                              std::max(1, parts_.runner->Capacity()), planner_.CoreTimeOfGoal());
   const int num_waiting = parts_.runner->NumWaiting();
   CampaignProgress progress{.num_search = use.num_search,
                             .num_confirm = use.num_confirm,

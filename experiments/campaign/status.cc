@@ -142,15 +142,6 @@ std::string StateText(const journal::ProgressRecord& progress, bool alive,
                "trials again";
 }
 
-// What a campaign with this goal so far has used of its budget.
-BudgetUse UseWith(const std::optional<GoalState>& goal, const CampaignSpec& spec,
-                  const std::vector<journal::TrialRecord>& trials, double elapsed) {
-  const auto running =
-      std::ranges::count(trials, journal::TrialStatus::kRunning, &journal::TrialRecord::status);
-  return UseOf(spec, trials, elapsed, AtATime(spec, static_cast<int>(running)),
-               goal ? goal->core_time : 0);
-}
-
 // "  trials            24 (3 for the noise, 12 of the design, 9 of the search), 6 to confirm"
 std::string TrialsLine(const Counts& counts) {
   const auto of = [&](journal::TrialKind kind) {
@@ -186,7 +177,7 @@ std::string TimeLines(const CampaignFolder& folder, const CampaignSpec& spec,
   }
   text += "  worked on for     " + base::DurationText(progress.elapsed_s) + "\n";
   const std::optional<GoalState> goal = LastGoal(folder.root, spec);
-  const BudgetUse use = UseWith(goal, spec, trials, progress.elapsed_s);
+  const BudgetUse use = UseSoFar(folder.root, spec, trials, progress.elapsed_s);
   if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
   if (spec.goal && !goal) text += "  goal              not looked at yet\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
@@ -202,7 +193,10 @@ std::string TimeLines(const CampaignFolder& folder, const CampaignSpec& spec,
 
 BudgetUse UseSoFar(const std::filesystem::path& folder, const CampaignSpec& spec,
                    const std::vector<journal::TrialRecord>& trials, double elapsed) {
-  return UseWith(LastGoal(folder, spec), spec, trials, elapsed);
+  const auto running =
+      std::ranges::count(trials, journal::TrialStatus::kRunning, &journal::TrialRecord::status);
+  return UseOf(spec, trials, elapsed, AtATime(spec, static_cast<int>(running)),
+               GoalCoreTime(folder, spec));
 }
 
 std::string StatusText(const std::filesystem::path& root) {

@@ -43,8 +43,8 @@ double CoreTimeOf(const campaign::JointView& view) {
   std::erase_if(own, [](const journal::TrialRecord& trial) {
     return trial.kind == journal::TrialKind::kReused;
   });
-  const auto goal = campaign::LastGoal(view.folder.root, view.spec);
-  return campaign::CoreTime(view.spec).Of(own) + (goal ? goal->core_time : 0);
+  return campaign::CoreTime(view.spec).Of(own) +
+         campaign::GoalCoreTime(view.folder.root, view.spec);
 }
 
 }  // namespace

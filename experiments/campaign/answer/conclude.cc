@@ -271,9 +271,9 @@ ResultConditions ConditionsOf(const CampaignSpec& spec, const Eigen::VectorXd& p
 }
 
 ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
-  const double of_goal = planner.goal() ? planner.goal()->core_time : 0;
   const double of_trials = MeasuredCoreTime(planner.trials(), evidence.spec);
-  ResultCost cost{.core_hours = (of_goal + of_trials) / 3600, .elapsed = evidence.elapsed};
+  ResultCost cost{.core_hours = (planner.CoreTimeOfGoal() + of_trials) / 3600,
+                  .elapsed = evidence.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.status == journal::TrialStatus::kRunning ||
         trial.kind == journal::TrialKind::kReused) {

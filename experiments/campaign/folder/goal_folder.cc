@@ -53,6 +53,11 @@ double GoalCoreTime(const std::filesystem::path& campaign) {
   return seconds;
 }
 
+double GoalCoreTime(const std::filesystem::path& campaign, const CampaignSpec& spec) {
+  const std::optional<GoalState> last = LastGoal(campaign, spec);
+  return last ? last->core_time : GoalCoreTime(campaign);
+}
+
 GoalState NewGoalState(const CampaignSpec& spec, std::int64_t after) {
   return {.goal = GoalText(spec),
           .after = after,

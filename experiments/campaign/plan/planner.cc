@@ -226,9 +226,7 @@ bool Planner::PlanReplicate(std::vector<journal::TrialRecord>& planned) {
   return false;
 }
 
-double Planner::CoreTimeOfSearch() {
-  return core_time_.OfSearch(trials_) + (goal_ ? goal_->core_time : 0);
-}
+double Planner::CoreTimeOfSearch() { return core_time_.OfSearch(trials_) + CoreTimeOfGoal(); }
 
 // Proposals that the budget of simulations has room for.
 int Planner::SetsLeft() const {

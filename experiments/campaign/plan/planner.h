@@ -45,6 +45,9 @@ class Planner {
   // What is known of the spec's goal, and whether the search may end by it; none: nothing yet.
   void NoteGoal(std::optional<GoalState> goal) { goal_ = std::move(goal); }
   const std::optional<GoalState>& goal() const { return goal_; }
+  // What runs in DIR/goal took before, though the spec may ask for no goal now [core seconds].
+  void NoteGoalTime(double seconds) { goal_time_ = seconds; }
+  double CoreTimeOfGoal() const { return goal_ ? goal_->core_time : goal_time_; }
   // What the strategy's own rule lacks; nothing where the budget did not end the search.
   std::optional<optimizer::StopShortfall> Shortfall();
 
@@ -127,6 +130,7 @@ class Planner {
   std::optional<std::vector<Candidate>> candidates_;  // of this confirmation
   std::optional<Stop> stop_;
   std::optional<GoalState> goal_;
+  double goal_time_ = 0;
   CoreTime core_time_;
   Turns turns_;
   const int most_threads_ = base::MostLoopThreads();

@@ -146,6 +146,20 @@ TEST_F(GoalTest, RunsBeforeAParameterWasAddedStayInTheCost) {
   EXPECT_GE(3600 * Result(folder).cost.core_hours, 800);
 }
 
+TEST_F(GoalTest, RunsOfAGoalThatIsNoLongerAskedForStayInTheCost) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  Run(folder);
+  SetTimeOfFirstLook(folder, "100");
+  nlohmann::ordered_json spec =
+      nlohmann::ordered_json::parse(base::ReadFile(scratch_.path() / "run_in" / "spec.json"));
+  spec.erase("goal");
+  campaign::ResumeOptions options;
+  options.spec = scratch_.path() / "run_in" / "without.json";
+  std::ofstream(options.spec) << spec;
+  ASSERT_EQ(campaign::RunFake(folder, {}, options), campaign::CampaignEnd::kFinished);
+  EXPECT_GE(3600 * Result(folder).cost.core_hours, 800);
+}
+
 // A look whose design is not there, or is that of another process, is made anew in its place.
 TEST_F(GoalTest, RunsThatAreReplacedStayInTheCost) {
   const fs::path folder = WithGoal("100 kg/m^3");
