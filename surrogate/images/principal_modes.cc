@@ -5,6 +5,19 @@
 #include <cmath>
 
 namespace talus::surrogate {
+namespace {
+
+// Mean and modes were fitted to the same vectors and have taken up a part of what is left of them;
+// of another vector more is left. Generalised cross-validation (Craven & Wahba 1979): the mean
+// square of what is left times (n / (n - 1 - k))². Of few vectors that is too much.
+double OfOtherVectors(Eigen::Index num_vectors, Eigen::Index num_modes) {
+  constexpr double kLeastFreedom = 0.25;  // of the number of vectors
+  const auto size = static_cast<double>(num_vectors);
+  const double freedom = std::max(size - 1 - static_cast<double>(num_modes), kLeastFreedom * size);
+  return std::pow(size / freedom, 2);
+}
+
+}  // namespace
 
 PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& weights,
                         int max_modes) {
@@ -40,8 +53,8 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& w
     if (modes.basis(largest, k) < 0) modes.basis.col(k) *= -1;
   }
   const Eigen::MatrixXd rest = centred - (centred * modes.basis) * modes.basis.transpose();
-  modes.discarded =
-      mean_weight * rest.colwise().squaredNorm().transpose() / static_cast<double>(size);
+  modes.discarded = OfOtherVectors(size, count) * mean_weight *
+                    rest.colwise().squaredNorm().transpose() / static_cast<double>(size);
   return modes;
 }
 

@@ -10,9 +10,10 @@ namespace talus::surrogate {
 struct PrincipalModes {
   Eigen::VectorXd mean;   // m
   Eigen::MatrixXd basis;  // m × k, orthonormal columns, the strongest first
-  // For a vector of weight 1:
-  Eigen::VectorXd discarded;  // m: variance of each element that the modes leave out
-  double next_sd = 0;         // standard deviation of the strongest mode left out; 0 where none is
+  // For a vector of weight 1. m: variance of each element that the modes leave out, of a vector
+  // that they were not fitted to.
+  Eigen::VectorXd discarded;
+  double next_sd = 0;  // standard deviation of the strongest mode left out; 0 where none is
 
   Eigen::VectorXd Coefficients(const Eigen::VectorXd& vector) const {
     return basis.transpose() * (vector - mean);
