@@ -196,16 +196,14 @@ std::vector<double> ValuesOf(const std::vector<DrumSurface>& surfaces,
 
 // As the rig has them, the means of the pictures' own: where few of them differ much, as in a drum
 // that avalanches, the mean picture has the surface of most.
-void TakeMeans(const std::vector<DrumSurface>& each, MeasuredDrum& drum) {
-  const std::vector<double> angles = ValuesOf(each, &DrumSurface::slope_angle);
+void TakeMeans(const std::vector<DrumSurface>& each, DrumSurface& surface) {
+  const std::vector<double> slopes = ValuesOf(each, &DrumSurface::slope_angle);
   const std::vector<double> fills = ValuesOf(each, &DrumSurface::fill);
-  if (!angles.empty() && drum.angle.defined()) {
-    drum.angle.value = std::abs(base::SampleOf(angles).mean);
-    drum.angle.standard_error = StandardError(angles);
+  if (!slopes.empty() && surface.slope_angle.defined()) {
+    surface.slope_angle.value = base::SampleOf(slopes).mean;
+    surface.slope_angle.standard_error = StandardError(slopes);
   }
-  if (!fills.empty() && drum.surface.fill.defined()) {
-    drum.surface.fill.value = base::SampleOf(fills).mean;
-  }
+  if (!fills.empty() && surface.fill.defined()) surface.fill.value = base::SampleOf(fills).mean;
 }
 
 // A slope this far to either side is no flat surface's scatter [rad].
@@ -275,6 +273,18 @@ void RequirePowderBelow(const GrayImage& photo, const DrumMap& map, const std::s
                           "negative serves)");
 }
 
+// What a series tells beyond its mean picture.
+void MeasureEach(const Photographs& photos, const DrumPhotos& options, const DrumPlace& place,
+                 MeasuredDrum& drum) {
+  std::vector<DrumSurface> each;
+  for (const GrayImage& image : photos.images) {
+    each.push_back(MeasureSurface(MapOf(image, place, options.photos.front().string())));
+  }
+  RequireOneTurning(each, options.photos);
+  TakeMeans(each, drum.surface);
+  drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
+}
+
 // The powder climbs where it is carried up, so that a surface that falls to the right turns
 // clockwise.
 void ReadTurning(const DrumPhotos& options, MeasuredDrum& drum) {
@@ -320,14 +330,8 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   RequirePowderBelow(mean, drum.map, name);
   drum.pixel_size = options.diameter / (2 * place.drum_radius);
   drum.surface = MeasureSurface(drum.map);
+  if (photos.images.size() > 1) MeasureEach(photos, options, place, drum);
   ReadTurning(options, drum);
-  if (photos.images.size() < 2) return drum;
-  std::vector<DrumSurface> each;
-  for (const GrayImage& image : photos.images)
-    each.push_back(MeasureSurface(MapOf(image, place, name)));
-  RequireOneTurning(each, options.photos);
-  TakeMeans(each, drum);
-  drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
   return drum;
 }
 

@@ -33,7 +33,8 @@ struct MeasuredDrum {
   DrumMap map;  // mean of the photographs
   DrumSurface surface;
   std::optional<Turning> turning{};  // not known of a powder without a slope unless it was said
-  Measured angle;         // dynamic angle of repose [rad]; its standard error over the photographs
+  Measured angle;         // dynamic angle of repose [rad], < 0 where a nearly level surface leans
+                          // against the turning; its standard error over the photographs
   double pixel_size = 0;  // [m]
   double surface_sd = 0;  // over the photographs, mean over the surface [m]; 0 for one photograph
 };

@@ -12,11 +12,11 @@ inline constexpr int kDrumSide = 200;  // of the picture [px]
 inline constexpr double kDrumRadius = 95;
 inline constexpr double kDrumRing = 3;  // [px]
 
-// Half full; the surface falls by 40 degrees to the right, or to the left. Up to `haze` [px] above
-// it half of the pictures show powder.
-inline imaging::GrayImage DrawDrum(bool falls_right, double haze = 0) {
+// Half full; the surface falls by so many degrees to the right, or to the left. Up to `haze` [px]
+// above it half of the pictures show powder.
+inline imaging::GrayImage DrawDrum(bool falls_right, double haze = 0, double degrees = 40) {
   imaging::GrayImage image{.width = kDrumSide, .height = kDrumSide, .pixels = {}};
-  const double slope = std::tan(40 * std::numbers::pi / 180) * (falls_right ? -1 : 1);
+  const double slope = std::tan(degrees * std::numbers::pi / 180) * (falls_right ? -1 : 1);
   for (int y = 0; y < kDrumSide; ++y) {
     for (int x = 0; x < kDrumSide; ++x) {
       const double right = x + 0.5 - kDrumSide / 2.0;

@@ -420,16 +420,33 @@ TEST(Drum, ASmallOneIsToBeCutOut) {
               HasSubstr("cut the picture down to the drum"));
 }
 
-// One level within its pixels' scatter was refused for the direction that was said.
+// One level within its pixels' scatter was refused for the direction that was said, and of a series
+// an angle against that direction was taken for one along it.
 TEST(Drum, ALevelSurfaceTurnsTheWayThatIsSaid) {
   const fs::path file = Write("level", Draw({.angle = 1 * kDegree}));
-  for (const Turning turning : {Turning::kClockwise, Turning::kCounterClockwise}) {
-    const MeasuredDrum drum =
-        MeasureDrum({.photos = {file}, .diameter = 0.084, .turning = turning});
-    EXPECT_EQ(drum.turning, turning);
-    const double sign = turning == Turning::kClockwise ? 1 : -1;
-    EXPECT_NEAR(drum.angle.value, sign * kDegree, 0.3 * kDegree);  // a pixel over the chord
+  for (const std::vector<fs::path>& photos : {std::vector{file}, std::vector{file, file}}) {
+    for (const Turning turning : {Turning::kClockwise, Turning::kCounterClockwise}) {
+      const MeasuredDrum drum =
+          MeasureDrum({.photos = photos, .diameter = 0.084, .turning = turning});
+      EXPECT_EQ(drum.turning, turning);
+      const double sign = turning == Turning::kClockwise ? 1 : -1;
+      EXPECT_NEAR(drum.angle.value, sign * kDegree, 0.3 * kDegree);  // a pixel over the chord
+      EXPECT_GT(drum.surface.slope_angle.value, 0);
+    }
   }
+}
+
+// Nobody said how it turns: the mean picture of -1, -1, -1 and 4.5 degrees leans to the right, the
+// mean angle to the left, which has to be that of the turning.
+TEST(Drum, ASeriesTurnsAsItsMeanAngleLeans) {
+  std::vector<fs::path> photos;
+  for (const double angle : {-1.0, -1.0, -1.0, 4.5}) {
+    photos.push_back(
+        Write("leaning" + std::to_string(photos.size()), Draw({.angle = angle * kDegree})));
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = photos, .diameter = 0.084});
+  EXPECT_EQ(drum.turning, Turning::kClockwise);
+  EXPECT_NEAR(drum.angle.value / kDegree, 0.375, 0.2);
 }
 
 }  // namespace drum_test

@@ -76,8 +76,8 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
         << base::ShortNumber(2 * drum.map.inner_radius) << " px of it count, the ring left out\n";
   if (drum.angle.defined()) {
     print << "  turning " << base::NameOf(*drum.turning) << ", powder higher on the "
-          << (drum.turning == imaging::Turning::kClockwise ? "left" : "right")
-          << "\n  dynamic angle " << base::ShortNumber(drum.angle.value / base::kDegree) << "°";
+          << (drum.surface.slope_angle.value >= 0 ? "left" : "right") << "\n  dynamic angle "
+          << base::ShortNumber(drum.angle.value / base::kDegree) << "°";
     if (num_photos > 1) {
       print << " ± " << base::ShortNumber(drum.angle.standard_error / base::kDegree, 2) << "°";
     }

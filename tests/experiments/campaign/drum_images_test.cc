@@ -9,9 +9,11 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "base/json/json_file.h"
 #include "experiments/campaign/start.h"
+#include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/image_file.h"
 #include "tests/error_in.h"
 #include "tests/experiments/drawn_drum.h"
@@ -199,6 +201,23 @@ TEST_F(DrumImages, ErrorsSayWhatToDo) {
   EXPECT_THAT(ErrorOf(R"(, "pattern": "{run}.png")"), HasSubstr("from all pictures of the folder"));
   EXPECT_THAT(ErrorOf(R"(, "mass": 0)"), HasSubstr("experiments[1].mass: is 0, must be positive"));
   EXPECT_EQ(ErrorOf(R"(, "cohesive_index": {"values": ["1 mm", "1.2 mm"]})"), "");
+}
+
+// Powder that leans against the stated turning was said to be higher on that turning's side.
+TEST(MeasuredDrums, AreSaidToBeHigherWhereTheyAre) {
+  const ScratchFolder scratch;
+  trials::MeasureRequest request;
+  for (const char* name : {"first.png", "second.png"}) {
+    request.inputs.push_back(scratch.path() / name);
+    imaging::WritePng(request.inputs.back(), DrawDrum(false, 0, 3));
+    request.drum.emplace();
+    request.drum->diameter = 0.084;
+    request.drum->turning = imaging::Turning::kClockwise;
+    std::ostringstream print;
+    trials::MeasureDrums(request, print);
+    EXPECT_THAT(print.str(), HasSubstr("turning clockwise, powder higher on the right\n"));
+    EXPECT_THAT(print.str(), ::testing::ContainsRegex("dynamic angle -(2[.]9|3)"));
+  }
 }
 
 // A measured series that is not part of the project: TALUS_REAL_DATA names its folder. Its README
