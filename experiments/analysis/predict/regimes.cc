@@ -11,6 +11,9 @@
 #include "base/median.h"
 #include "base/text/plain_number.h"
 #include "engine/bodies/particle.h"
+#include "engine/laws/material_pair.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/case/run_files.h"
 
 namespace talus::analysis {
@@ -31,7 +34,9 @@ std::vector<double> Medians(const std::vector<rigs::Regime>& runs,
 
 // For two equal grains: γ* = 2γ and R* = d/4 (docs/physics.md, A1 and A4).
 double PullOff(const rigs::Case& rig_case, double diameter) {
-  const double plain = std::numbers::pi * rig_case.powder.material.surface_energy * diameter;
+  const engine::Material grains =
+      engine::With(rig_case.powder.material, rigs::StatedWith(rig_case.pairs, rigs::kPowder));
+  const double plain = std::numbers::pi * grains.surface_energy * diameter;
   switch (rig_case.models.adhesion) {
     case engine::Adhesion::kDmt:
       return plain;

@@ -338,13 +338,20 @@ TEST(Regimes, AreOfThePowdersOwnGrains) {
   // πγd over ρπd³g/6.
   const double density = rig_case.powder.material.density;
   EXPECT_NEAR(regime.bond_number, 6 * 1e-3 / (density * 5e-4 * 5e-4 * rig_case.gravity), 1e-9);
+  // What two grains state as a pair takes the place of their material's, and was left out.
+  rigs::Case of_pairs = rig_case;
+  of_pairs.pairs = {{.between = {"powder", "plate"}, .stated = {.surface_energy = 7e-3}},
+                    {.between = {"powder", "powder"}, .stated = {.surface_energy = 4e-3}}};
+  EXPECT_NEAR(DescribeRegime("heap", {run}, of_pairs).bond_number, 4 * regime.bond_number, 1e-9);
   // JKR pulls off at three quarters of it, and grains without adhesion at nothing.
   rig_case.models.adhesion = engine::Adhesion::kJkr;
   EXPECT_NEAR(DescribeRegime("heap", {run}, rig_case).bond_number, 0.75 * regime.bond_number,
               1e-12);
   rig_case.models.adhesion = engine::Adhesion::kNone;
   EXPECT_EQ(DescribeRegime("heap", {run}, rig_case).bond_number, 0);
-  // t_c γ̇ goes with γ̇^(4/5).
+  // t_c γ̇ goes with γ̇^(4/5). At 20/s m* is 8.1812e-8 kg, Y* 5.4945e6 Pa, R* 1.25e-4 m and γ̇ d
+  // 0.01 m/s: t_c = 1.2813e-4 s.
+  EXPECT_NEAR(regime.contact_duration[1], 2.5626e-3, 1e-7);
   EXPECT_NEAR(regime.contact_duration[2] / regime.contact_duration[1], std::pow(10, 0.8), 1e-6);
 }
 
