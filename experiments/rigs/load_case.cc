@@ -1,13 +1,17 @@
 #include "experiments/rigs/load_case.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/json/json_reader.h"
 #include "base/text/number_text.h"
+#include "engine/bodies/particle.h"
 #include "engine/bodies/wall_motion.h"
+#include "engine/scene.h"
 #include "engine/scene/filling.h"
+#include "experiments/rigs/case/time_step.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/phased/pace.h"
@@ -137,6 +141,42 @@ void ValidateHeight(const Case& c, const Vessel& vessel, base::Problems& problem
                     : ": one of mass, density and vessel has another unit"));
 }
 
+// A wall that a rig moves out of itself; gates rise within themselves, drums and lids turn so.
+struct MovingSurface {
+  const char* name = "";
+  const char* key = "";  // of its speed
+  double speed = 0;      // [m/s]
+};
+
+std::optional<MovingSurface> MovingSurfaceOf(const Case& c) {
+  if (c.rig.kind == RigKind::kLiftedTube) {
+    return MovingSurface{"tube", "device.lift_velocity", c.rig.lifted_tube.lift_velocity};
+  }
+  if (c.rig.kind != RigKind::kSpreading) return std::nullopt;
+  return MovingSurface{"spreader", "rig.speed", c.rig.spreading.speed};
+}
+
+// So fast it could pass a grain unseen: the engine refuses such a motion, which begins after the
+// filling. Δt goes with R and with 1/√E, and its share of the Rayleigh time grows with E at most to
+// what the case asks for.
+void ValidateSurfaceSpeed(const Case& c, base::Problems& problems) {
+  constexpr double kWithin = 0.98;  // what is said holds when it has been rounded
+  const std::optional<MovingSurface> surface = MovingSurfaceOf(c);
+  if (!surface) return;
+  const double fraction = StepFraction(c);
+  const double moves = surface->speed * fraction * engine::RayleighTime(c.powder.material, 1);
+  const double share = kWithin * engine::kMostLater / moves;
+  const double stiffer = c.rayleigh_fraction / (share * fraction);
+  problems.Require(
+      moves <= engine::kMostLater, surface->key, surface->speed,
+      "in m/s, moves the " + std::string(surface->name) + " by " + base::ShortNumber(moves) +
+          " radii of the smallest grain in a time step, above the " +
+          base::ShortNumber(engine::kMostLater) + " that holds; lower it to " +
+          base::ShortNumber(share * surface->speed, 3) + " m/s, raise youngs_modulus " +
+          base::ShortNumber(stiffer * stiffer, 3) + " times, or lower rayleigh_fraction to " +
+          base::ShortNumber(share * fraction, 3));
+}
+
 void ValidateWithRig(const Case& c, base::Problems& problems) {
   const RigEntry& entry = EntryOf(c);
   const Vessel vessel = entry.vessel(c);
@@ -153,6 +193,7 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
                        (factor > 1 ? " at scale factor " + base::ShortNumber(factor) : ""));
   if (problems.empty()) ValidateHeight(c, vessel, problems);
   entry.validate(c, problems);
+  ValidateSurfaceSpeed(c, problems);
   ValidateLastPicture(c, problems);
   if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);
   if (c.rig.kind == RigKind::kTappedDensity) {

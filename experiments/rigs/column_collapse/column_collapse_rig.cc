@@ -1,6 +1,9 @@
 // How far a column runs out. x is along the channel, its origin in the middle of the column.
 //
 //   runout = x of the front - L/2     the front: where the layer on the floor ends (surface.h)
+//
+// A powder of hardly any sliding or rolling friction runs out to less than a layer, and has no
+// front.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,6 +26,8 @@ namespace {
 
 constexpr const char* kRunningOut = "running out";
 constexpr int kColumnFloor = 1;  // index of the wall
+constexpr const char* kStands = "the column stands";
+constexpr const char* kNoLayer = "it ran out to less than a layer";
 
 struct GateMemory {
   std::int64_t num_carried = 0;  // grains that went with the gate
@@ -93,7 +98,8 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
 
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double length = rig_case().rig.column_collapse.length;
-    const double front = Front(grains);
+    const LayerOnFloor layer = LayerBeyondGate(grains);
+    const bool has_front = !RanOutToLess(grains, layer);
     // Grains that cling to a gate that has not come up are none of the heap.
     const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
     const std::vector<bool> stands = ContactSets(grains, contacts).Reaching(kColumnFloor);
@@ -101,17 +107,24 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
     for (std::size_t i = 0; i < grains.size(); ++i) {
       if (stands[i]) top = std::max(top, grains[i].position.z + grains[i].radius);
     }
-    const double runout = front - length / 2;
-    std::vector<Reading> all{{Observable::kRunout, runout},
+    Reading runout{Observable::kRunout};
+    if (has_front) {
+      runout.value = layer.end - layer.begin;
+    } else {
+      runout.undefined = kNoLayer;
+    }
+    std::vector<Reading> all{runout,
                              {Observable::kHeight, top},
                              {Observable::kColumnHeight, state().bed.height},
                              {Observable::kAspectRatio, state().bed.height / length}};
-    if (!(runout > 0)) {
-      all.push_back({.observable = Observable::kAngle, .undefined = "the column stands"});
+    if (!has_front || !(runout.value > 0)) {
+      all.push_back(
+          {.observable = Observable::kAngle, .undefined = has_front ? kStands : kNoLayer});
       return all;
     }
     // Between the foot of the end wall, or the top that has not moved, and the thin front.
     const FormerBed bed{.height = state().bed.height};
+    const double front = layer.end;
     const SurfaceStrips whole{.from = -length / 2, .to = front, .width = MeanDiameter()};
     const double start = EndOfUnmoved(SurfaceOf(grains, whole), bed).value_or(whole.from);
     const SurfaceStrips middle{.from = start + 0.2 * (front - start),
@@ -127,16 +140,28 @@ class ColumnCollapseRig : public RememberingRig<GateMemory> {
       warnings.push_back(base::Counted(memory().num_carried, "grain") +
                          " clung to the gate and went up with it");
     }
-    if (Front(grains) > rig_case().rig.column_collapse.length / 2) return warnings;
-    warnings.push_back("the column stands: no layer of it ran out from behind the gate");
+    const LayerOnFloor layer = LayerBeyondGate(grains);
+    if (RanOutToLess(grains, layer)) {
+      warnings.push_back(std::string(kNoLayer) +
+                         ": most of what left the gate lies beyond the end of its layer, and there "
+                         "is no front that a runout and an angle could be read to");
+    } else if (!(layer.end > layer.begin)) {
+      warnings.push_back(std::string(kStands) + ": no layer of it ran out from behind the gate");
+    }
     return warnings;
   }
 
  private:
-  // x of it; the gate's where nothing has run out.
-  double Front(GrainSpan grains) const {
+  bool RanOutToLess(GrainSpan grains, const LayerOnFloor& layer) const {
+    const double length = rig_case().rig.column_collapse.length;
+    return IsLessThanALayer(grains, layer, std::min(1.0, state().bed.height / length));
+  }
+
+  // Beyond the gate; it ends where it begins if nothing has run out.
+  LayerOnFloor LayerBeyondGate(GrainSpan grains) const {
     const ColumnCollapseOptions& channel = rig_case().rig.column_collapse;
-    return EndOfLayer(grains, channel.length / 2, channel.width, MeanDiameter());
+    const double gate = channel.length / 2;
+    return {.begin = gate, .end = EndOfLayer(grains, gate, channel.width, MeanDiameter())};
   }
 
   // That the gate takes to the top of the bed [s].

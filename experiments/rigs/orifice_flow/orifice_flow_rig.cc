@@ -9,6 +9,7 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/flow.h"
 #include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/pace.h"
@@ -18,6 +19,8 @@ namespace talus::rigs {
 namespace {
 
 constexpr const char* kDischarging = "discharging";
+constexpr int kOrificeFloor = 1;  // indices of the walls
+constexpr int kOrificeCylinder = 2;
 
 // The cone's height [m]; 0 of a flat floor.
 double ConeHeight(const OrificeFlowOptions& options) {
@@ -125,7 +128,7 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
 
   std::vector<Reading> Readings(GrainSpan grains) const override {
     const double filled = FilledMass();
-    const double passed = MassBelow(grains);
+    const double passed = MassFallen(grains);
     const bool flows = HasFlowed(passed, filled) || (passed > 0 && IsFree(grains));
     std::vector<Reading> all =
         FlowReadings(memory().flow, passed, flows, "an arch stands above the orifice");
@@ -143,6 +146,18 @@ class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
       if (p.position.z < 0) mass += MassOf({&p, 1});
     }
     return mass;
+  }
+
+  // The same without what hangs under the orifice, from an arch or the floor's edge [kg].
+  double MassFallen(GrainSpan grains) const {
+    const std::vector<engine::ContactInfo> contacts = simulation().Contacts();
+    const std::vector<bool> hangs =
+        ContactSets(grains, contacts).Hanging({kOrificeFloor, kOrificeCylinder});
+    std::vector<engine::Particle> free;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      if (!hangs[i]) free.push_back(grains[i]);
+    }
+    return MassBelow(free);
   }
 
   // A shallow bed on a flat floor is left with a crater over the orifice: less than a tenth of it

@@ -55,8 +55,9 @@ std::vector<bool> ContactSets::Reaching(int wall) const {
   return reaching;
 }
 
-std::vector<bool> ContactSets::Hanging(std::initializer_list<int> walls, int floor) const {
-  const std::vector<bool> stands = Reaching(floor);
+std::vector<bool> ContactSets::Hanging(std::initializer_list<int> walls,
+                                       std::optional<int> floor) const {
+  const std::vector<bool> stands = floor ? Reaching(*floor) : std::vector<bool>(set_.size(), false);
   std::vector<bool> hangs(set_.size(), false);
   for (const int wall : walls) {
     const std::vector<bool> reaches = Reaching(wall);

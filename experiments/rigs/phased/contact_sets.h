@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ class ContactSets {
   std::vector<bool> Touching(int wall) const;
   // For each particle, whether a chain of contacts leads to the wall.
   std::vector<bool> Reaching(int wall) const;
-  // For each particle, whether a chain leads to one of the walls and none to the floor.
-  std::vector<bool> Hanging(std::initializer_list<int> walls, int floor) const;
+  // For each particle, whether a chain leads to one of the walls and none to the floor, if there is
+  // one below them.
+  std::vector<bool> Hanging(std::initializer_list<int> walls, std::optional<int> floor = {}) const;
 
  private:
   std::vector<std::size_t> set_;    // of each particle

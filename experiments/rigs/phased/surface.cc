@@ -57,6 +57,20 @@ double EndOfLayer(std::span<const engine::Particle> grains, double from, double 
   return end;
 }
 
+bool IsLessThanALayer(std::span<const engine::Particle> grains, const LayerOnFloor& layer,
+                      double near_gate) {
+  double all = 0;  // R³
+  double out = 0;
+  double beyond = 0;
+  for (const engine::Particle& p : grains) {
+    const double cube = p.radius * p.radius * p.radius;
+    all += cube;
+    if (p.position.x > layer.begin) out += cube;
+    if (p.position.x > layer.end) beyond += cube;
+  }
+  return out > near_gate * all / 2 && beyond > out / 2;
+}
+
 namespace {
 
 bool HasSunk(const SurfacePoint& point, const FormerBed& bed) {

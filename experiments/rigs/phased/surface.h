@@ -38,6 +38,18 @@ struct FormerBed {
 double EndOfLayer(std::span<const engine::Particle> grains, double from, double width,
                   double diameter);
 
+// Whether a powder ran out to less than a layer, which lies on the floor between these places: more
+// than half of what could leave is beyond where it begins, and more than half of that beyond its
+// end. A runout read to that end would be the shorter the farther the powder has run. `near_gate`:
+// the share of all powder that was within the column's height of the gate, 0 to 1; of a long column
+// no more leaves than its face.
+struct LayerOnFloor {
+  double begin = 0;  // [m]
+  double end = 0;    // [m]
+};
+bool IsLessThanALayer(std::span<const engine::Particle> grains, const LayerOnFloor& layer,
+                      double near_gate);
+
 // What lies below nine tenths of the former height: the rest has not moved, and is no slope.
 std::vector<SurfacePoint> Sunken(std::vector<SurfacePoint> surface, const FormerBed& bed);
 

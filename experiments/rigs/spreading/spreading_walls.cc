@@ -5,6 +5,7 @@
 
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 
 namespace talus::rigs {
 namespace {
@@ -108,12 +109,15 @@ std::vector<engine::Wall> SpreadingWalls(const Case& c, double height) {
   const auto side = [](double y, double normal) {
     return engine::Plane{.point = {0, y, 0}, .normal = {0, normal, 0}};
   };
-  const double held = o.bed ? std::max(kGateHeight * height, WeirHeight(c)) : kGateHeight * height;
+  // What is poured appears higher than the heap will be.
+  const double least = height + Headroom(c, SpreadingVessel(c), {});
+  const double gate_height = std::max(kGateHeight * height, least);
+  const double held = o.bed ? std::max(gate_height, WeirHeight(c)) : gate_height;
   const auto gate = [&](double x) {
     return Across({.x = x, .low = ground, .high = ground + held}, o.width);
   };
   std::vector<engine::Wall> walls;
-  const double top = kSpreaderHeight * height;
+  const double top = std::max(kSpreaderHeight * height, least);
   if (o.spreader == Spreader::kBlade) {
     walls.push_back({.name = "blade",
                      .shape = Across({.x = -o.feed, .low = gap, .high = gap + top}, o.width),

@@ -132,6 +132,30 @@ TEST(Case, ADeviceThatCannotHoldTheMassIsRefused) {
               HasSubstr("must be above three (scaled) grain diameters"));
 }
 
+// The engine refused it by "motion", after the powder had been filled in.
+TEST(Case, ASpeedThatWouldPassGrainsUnseenIsRefusedByItsKeyWithWhatHolds) {
+  const auto error_of = [](const std::string& speed, const std::string& modulus,
+                           const std::string& fraction) {
+    return ErrorOf(R"({"powder": {"material": {"density": 2500, "poisson_ratio": 0.25,
+      "youngs_modulus": ")" +
+                   modulus + R"("}, "sizes": {"kind": "mono", "diameter": "1 mm"},
+      "mass": "0.3 g"}, "rayleigh_fraction": )" +
+                   fraction + R"(, "device": {"lift_velocity": ")" + speed + R"("}})");
+  };
+  EXPECT_THAT(error_of("2 m/s", "50 kPa", "0.3"),
+              AllOf(HasSubstr("device.lift_velocity: is 2 (\"2 m/s\"), in m/s, moves the tube by "
+                              "0.7265 radii of the smallest grain"),
+                    HasSubstr("lower it to 1.35 m/s, raise youngs_modulus 2.2 times, or lower "
+                              "rayleigh_fraction to 0.202")));
+  EXPECT_EQ(error_of("1.35 m/s", "50 kPa", "0.3"), "");
+  EXPECT_EQ(error_of("2 m/s", "110 kPa", "0.3"), "");
+  EXPECT_EQ(error_of("2 m/s", "50 kPa", "0.202"), "");
+  EXPECT_THAT(ErrorOf(R"({"powder": {"material": {"density": 4430, "youngs_modulus": "50 kPa"},
+    "sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "8 mg"},
+    "rig": {"kind": "spreading", "speed": "1.5 m/s"}})"),
+              HasSubstr("rig.speed: is 1.5 (\"1.5 m/s\"), in m/s, moves the spreader by"));
+}
+
 TEST(HeapScene, CoarseGrainingScalesDiametersAndSurfaceEnergyAndKeepsTheMass) {
   Case rig_case = LoadCase(kExample);
   rig_case.powder.material.surface_energy = 1e-4;

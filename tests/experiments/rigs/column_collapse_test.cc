@@ -54,6 +54,47 @@ TEST(ColumnCollapse, TheFrontIsWhereTheLayerEnds) {
   EXPECT_EQ(EndOfLayer({}, 1e-3, 5e-3, 1e-3), 1e-3);
 }
 
+// Grains of hardly any friction lie a few to a strip, far away: a front at the gate, or at the
+// first gap behind it, made the longest runouts the shortest. A column that stands has lost single
+// grains only, however far they have rolled.
+TEST(ColumnCollapse, WhatLiesBeyondItsLayerIsLessThanALayer) {
+  std::vector<engine::Particle> grains;
+  const auto add = [&](int count, double x) {
+    engine::Particle grain;
+    grain.position.x = x;
+    grain.radius = 0.5e-3;
+    grains.insert(grains.end(), static_cast<std::size_t>(count), grain);
+  };
+  add(40, -5e-3);
+  add(30, 2e-3);
+  add(12, 8e-3);
+  EXPECT_FALSE(IsLessThanALayer(grains, {.begin = 0, .end = 5e-3}, 1));
+  add(19, 80e-3);
+  EXPECT_TRUE(IsLessThanALayer(grains, {.begin = 0, .end = 5e-3}, 1));
+  EXPECT_FALSE(IsLessThanALayer(grains, {.begin = 0, .end = 10e-3}, 1));
+  add(30, -5e-3);
+  EXPECT_FALSE(IsLessThanALayer(grains, {.begin = 0, .end = 0}, 1));
+  EXPECT_FALSE(IsLessThanALayer({}, {.begin = 0, .end = 0}, 1));
+  add(200, -20e-3);  // a long column, of which only the face can leave
+  EXPECT_FALSE(IsLessThanALayer(grains, {.begin = 0, .end = 5e-3}, 1));
+  EXPECT_TRUE(IsLessThanALayer(grains, {.begin = 0, .end = 5e-3}, 0.2));
+}
+
+// All of it lay far from the gate, and was said to stand.
+TEST(ColumnCollapse, WhatHasRunAwayDoesNotStand) {
+  Case c = CaseOf(RigKind::kColumnCollapse, 0, 0, 0.1e-3);
+  c.powder.material.youngs_modulus = 1e5;
+  c.rig.column_collapse = {.length = 0.006, .width = 0.005};
+  c.rules.heap.max_time = 0.5;
+  const auto rig = Ran(c);
+  const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
+  for (const char* name : {"runout_m", "angle_deg"}) {
+    EXPECT_EQ(result["undefined"][name], "it ran out to less than a layer") << name;
+  }
+  EXPECT_EQ(result["warnings"].dump().find("stands"), std::string::npos);
+  EXPECT_NE(result["warnings"].dump().find("less than a layer"), std::string::npos);
+}
+
 // The face of a column five grains high, 12 and 36 mm long, runs out about as far: single ones
 // scatter by a sixth, with the slope of some ten grains. A long one had no angle.
 TEST(ColumnCollapse, ALongColumnRunsOutAsFarAsItsFace) {

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "base/units.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/vessel.h"
 #include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/rig_run.h"
 #include "tests/experiments/rigs/rig_case.h"
 
@@ -285,6 +288,28 @@ TEST(OrificeFlow, ACraterIsNoArch) {
   EXPECT_LT(Value(c, *rig, "mass_fallen_kg"), 0.1 * 3.7e-3);
   EXPECT_EQ(Value(c, *rig, "flows"), 1);
   EXPECT_GT(Value(c, *rig, "discharge_rate_kg_per_s"), 0);
+}
+
+// The first grain lies on the floor at the edge, and holds the second below it, with nothing under
+// that; the third falls. The second had fallen, with no grain gone and an arch above it.
+TEST(OrificeFlow, WhatHangsUnderTheOrificeHasNotFallen) {
+  const Case c = Orifice(0.005, 0.1e-3);
+  constexpr double kRadius = 0.5e-3;
+  const auto grain = [](std::int64_t id, double x, double z) {
+    return engine::Particle{.id = id, .radius = kRadius, .position = {x, 0, z}};
+  };
+  const double leg = 1.999 * kRadius / std::numbers::sqrt2;
+  const engine::Particle edge = grain(0, 0.0025 + 0.3 * kRadius, 0.999 * kRadius);
+  FilledScene made = FillVessel(c, EntryOf(c).vessel(c));
+  made.scene.particles = {edge, grain(1, edge.position.x - leg, edge.position.z - leg),
+                          grain(2, 0, -4e-3)};
+  made.scene.walls = EntryOf(c).walls(c, 0.01);
+  made.scene.walls[kGate].shape = engine::Disc{.center = {0, 0, -1}, .radius = 1e-3};  // away
+  engine::Simulation simulation(made.scene);
+  simulation.RemoveWall(kGate);
+  const auto rig = RestoreRig(c, MakeRig(c)->StateLine(), std::move(simulation));
+  const double mass = kDensity * 4 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+  EXPECT_NEAR(Value(c, *rig, "mass_fallen_kg"), mass, 1e-9 * mass);
 }
 
 TEST(OrificeFlow, AnArchIsLookedAtForItsTime) {

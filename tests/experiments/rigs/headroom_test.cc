@@ -53,6 +53,34 @@ TEST(Headroom, PouredGrainsAppearBelowTheTopOfTheWalls) {
   EXPECT_GT(TopOfWalls(tube, PouredHeight(tube, EntryOf(tube).vessel(tube))), 0.04);
 }
 
+// 20 of 955 grains lay on the plate beyond the gate before the heap was spread. What is placed
+// densely has the walls that it had.
+TEST(Headroom, AHeapToBeSpreadIsPouredBehindGatesThatHoldIt) {
+  for (const Spreader spreader : {Spreader::kBlade, Spreader::kRoller, Spreader::kComb}) {
+    Case c = Shallow(RigKind::kSpreading);
+    c.rig.spreading = {.spreader = spreader, .length = 0.02, .width = 0.02, .feed = 0.02};
+    const Vessel vessel = EntryOf(c).vessel(c);
+    const double height = PouredHeight(c, vessel);
+    const auto holds = [&](const engine::Wall& wall) {
+      return wall.name == "gate" || wall.name == "rear gate" || wall.name == "blade";
+    };
+    int num_holding = 0;
+    for (const engine::Wall& wall : EntryOf(c).walls(c, height)) {
+      if (!holds(wall)) continue;
+      ++num_holding;
+      EXPECT_GE(Top(wall),
+                vessel.region.base.z + height + DropHeight(c, vessel) + MakePour(c, vessel).slab())
+          << wall.name;
+    }
+    EXPECT_EQ(num_holding, 2);
+    c.filling.kind = FillingKind::kDense;
+    for (const engine::Wall& wall : EntryOf(c).walls(c, height)) {
+      if (wall.name != "gate") continue;
+      EXPECT_DOUBLE_EQ(Top(wall), vessel.region.base.z + 1.5 * height);
+    }
+  }
+}
+
 // Coarse grains need a wider mouth than 0.6 of a narrow tube, and were poured 1.7 times as fast.
 TEST(Pouring, CoarseGrainsArePouredAtTheRateOfTrueOnes) {
   Case c = Shallow(RigKind::kLiftedTube);

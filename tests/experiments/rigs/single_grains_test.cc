@@ -8,6 +8,7 @@
 #include "engine/run/resisted_spins.h"
 #include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
+#include "experiments/rigs/phased/contact_sets.h"
 #include "experiments/rigs/phased/landing.h"
 #include "experiments/rigs/phased/rest.h"
 
@@ -35,6 +36,26 @@ TEST(Connectivity, FollowsContactsToThePlateAndElseToTheTube) {
   EXPECT_TRUE(connected.on_plate[5]);
   EXPECT_FALSE(connected.on_tube[5]);
   EXPECT_TRUE(connected.tube_touches_heap);
+}
+
+// 0 at a wall and 10 at 0; 20 on the floor and at the wall; 30 in the air. What hangs where there
+// is no floor is all that reaches the wall.
+TEST(ContactSets, WhatHangsReachesAWallAndNoFloor) {
+  std::vector<engine::Particle> grains(4);
+  for (int i = 0; i < 4; ++i) grains[static_cast<std::size_t>(i)].id = 10 * i;
+  constexpr int kSide = 2, kBottom = 3;
+  std::vector<engine::ContactInfo> contacts;
+  const auto touch = [&](std::int64_t first, std::int64_t second) {
+    contacts.push_back(
+        {.first = first, .second = second, .overlap = 1e-6, .normal = {}, .force = {}});
+  };
+  touch(0, -1 - kSide);
+  touch(0, 10);
+  touch(20, -1 - kSide);
+  touch(20, -1 - kBottom);
+  const ContactSets sets(grains, contacts);
+  EXPECT_EQ(sets.Hanging({kSide}, kBottom), (std::vector<bool>{true, true, false, false}));
+  EXPECT_EQ(sets.Hanging({kSide}), (std::vector<bool>{true, true, true, false}));
 }
 
 engine::Particle Grain(engine::Vec3 position, engine::Vec3 velocity) {
