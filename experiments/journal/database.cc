@@ -33,6 +33,12 @@ std::string ReasonOf(sqlite3* database) {
     throw base::ConfigError(place + "another program holds it (" + ReasonOf(database) +
                             "); close that, and the same command goes on");
   }
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+    // Who only reads is told what repairs it; `talus resume` itself opens it for writing.
+    const bool only_reads = sqlite3_db_readonly(database, "main") == 1;
+    throw base::Error(place + "is damaged (" + ReasonOf(database) + ")" +
+                      (only_reads ? "; `talus resume` repairs it" : ""));
+  }
   throw base::Error(place + doing + ": " + ReasonOf(database));
 }
 

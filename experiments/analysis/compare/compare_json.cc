@@ -79,6 +79,8 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
   }
   const Json json{{"name", compared.evidence.name},
                   {"experiment", compared.evidence.experiments.at(compared.evidence.experiment)},
+                  {"scale_factor", compared.evidence.scale_factor},
+                  {"target_scale_factor", compared.evidence.target},
                   {"knowledge", knowledge},
                   {"tie_margin_in_noise_sd", kTieMargin},
                   {"objectives", objectives}};

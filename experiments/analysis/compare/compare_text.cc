@@ -132,6 +132,17 @@ std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f)
   return Aligned(rows) + "\n";
 }
 
+// What coarser grains prefer may be another set than what the answer's do.
+std::string ScaleFactorText(const ComparedCampaign& compared) {
+  const Evidence& evidence = compared.evidence;
+  const bool any = std::ranges::any_of(
+      compared.findings, [](const ObjectiveFinding& finding) { return finding.absent.empty(); });
+  if (!any || evidence.scale_factor == evidence.target) return "";
+  return "  The trials are those at the scale factor " + base::ShortNumber(evidence.scale_factor) +
+         ", with its bias; the campaign's answer is for " + base::ShortNumber(evidence.target) +
+         ".\n";
+}
+
 // Seeds may change nothing, in another engine's command or for grains on a lattice.
 std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
   std::string text;
@@ -165,7 +176,7 @@ std::string ComparisonText(const ComparedCampaign& compared) {
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.absent.empty()) text += "  " + f.info.title + ": " + f.absent + "\n";
   }
-  return text + TiesText(compared.findings);
+  return text + TiesText(compared.findings) + ScaleFactorText(compared);
 }
 
 }  // namespace talus::analysis

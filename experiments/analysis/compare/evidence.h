@@ -104,7 +104,8 @@ struct Evidence {
   bool ended_silently = false;  // kRunning, but no process works on it
   std::string stop_reason;      // empty while running
   std::size_t experiment = 0;   // whose trials these are, of the campaign's
-  double scale_factor = 1;      // of the search
+  double scale_factor = 1;      // of the trials that tell: the finest of the search
+  double target = 1;            // the scale factor that the answer is for
   std::string objective;        // key of one of kObjectives: the latest search's
   std::string strategy;         // its kind
   int max_simulations = 0;      // the budget; 0: none

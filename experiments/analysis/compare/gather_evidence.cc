@@ -99,15 +99,15 @@ imaging::Profile ReadReference(const journal::ExperimentRecord& record) {
   return aehp;
 }
 
-// The finest scale factor of the search that says something, 1 where none does: what others say of
-// a set is biased by their grains.
-double FinestOfSearch(const std::vector<journal::TrialRecord>& trials) {
+// The finest scale factor of the search that says something, the target where none does: what
+// others say of a set is biased by their grains.
+double FinestOfSearch(const std::vector<journal::TrialRecord>& trials, double target) {
   double finest = std::numeric_limits<double>::infinity();
   for (const journal::TrialRecord& t : trials) {
     const bool tells = t.status == journal::TrialStatus::kOk;
     if (tells && t.IsOfSearch()) finest = std::min(finest, t.scale_factor);
   }
-  return std::isfinite(finest) ? finest : 1;
+  return std::isfinite(finest) ? finest : target;
 }
 
 void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
@@ -131,7 +131,7 @@ void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
   for (TrialEvidence& trial : evidence.trials) {
     trial.metrics.resize(evidence.metrics.size(), base::kNotKnown);
   }
-  evidence.scale_factor = FinestOfSearch(trials);
+  evidence.scale_factor = FinestOfSearch(trials, evidence.target);
 }
 
 // The times of all experiments together.
@@ -253,6 +253,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
   const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
+  evidence.target = spec.coarse_graining.Target();
   AddSpec(evidence, record);
   for (const journal::ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));

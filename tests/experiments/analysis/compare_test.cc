@@ -17,6 +17,7 @@ namespace compare_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Sample {
   double x = 0;         // the one parameter, which is also its unit coordinate
@@ -99,6 +100,19 @@ TEST(CompareObjectives, SeedsThatChangeNothingAreSaidToDoSo) {
   };
   EXPECT_THAT(text(1.0), HasSubstr("came out alike: only equal sets tie"));
   EXPECT_THAT(text(2.0), HasSubstr("scatter of one simulation: SAD 0.71 mm²."));
+}
+
+TEST(CompareObjectives, SaysThatItsTrialsAreOfCoarserGrainsThanTheAnswer) {
+  Evidence evidence = OneParameter("sad_mm2", {{0.2, 1.0}, {0.6, 5.0}});
+  evidence.experiments = {"heap"};
+  EXPECT_THAT(ComparisonText({evidence, CompareObjectives(evidence)}),
+              Not(HasSubstr("scale factor")));
+  evidence.scale_factor = 3;
+  for (TrialEvidence& trial : evidence.trials) trial.scale_factor = 3;
+  const auto findings = CompareObjectives(evidence);
+  EXPECT_THAT(ComparisonText({evidence, findings}),
+              HasSubstr("at the scale factor 3, with its bias; the campaign's answer is for 1."));
+  EXPECT_THAT(ComparisonJson({evidence, findings}), HasSubstr("\"target_scale_factor\": 1"));
 }
 
 TEST(CompareObjectives, RanksAnAngleByItsDistanceFromTheExperiments) {

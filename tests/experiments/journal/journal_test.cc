@@ -122,6 +122,14 @@ TEST_F(JournalTest, AnEmptyOneIsSaidToHoldNoCampaign) {
   }
 }
 
+// In SQLite's words alone nobody knew that it can be mended.
+TEST_F(JournalTest, ATruncatedOneIsSaidToBeRepairable) {
+  { Journal::Create(File(), Campaign()); }
+  std::filesystem::resize_file(File(), std::filesystem::file_size(File()) / 2);
+  EXPECT_THAT(ErrorIn<base::Error>([&] { Journal::OpenReadOnly(File()); }),
+              AllOf(HasSubstr("is damaged"), HasSubstr("`talus resume` repairs it")));
+}
+
 TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   Journal journal = Journal::Create(File(), Campaign());
   StartTrial(journal, 1);
