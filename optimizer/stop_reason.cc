@@ -11,6 +11,13 @@ namespace {
 
 std::string PercentText(double x) { return base::InPercent(x) + " %"; }
 
+// "more than 4 %"; "as much as 0.01 %" where it is less than that.
+std::string MostText(double share) {
+  const std::string text = PercentText(share);
+  const std::string less = "less than ";
+  return text.starts_with(less) ? "as much as " + text.substr(less.size()) : "more than " + text;
+}
+
 std::string Count(double x) { return std::to_string(std::llround(x)); }
 
 }  // namespace
@@ -24,9 +31,8 @@ std::string TextOf(const StopReason& r) {
       return gain + Rounded(r.limit) +
              " x the lower quartile of the design's values less the lowest, " + Rounded(r.scale);
     case StopRule::kShare:
-      return "more simulations would hardly narrow the answer (no number of them any range by more "
-             "than " +
-             PercentText(r.value) + ", and " + PercentText(r.limit) + " would be worth it)";
+      return "more simulations would hardly narrow the answer (no number of them any range by " +
+             MostText(r.value) + ", and " + PercentText(r.limit) + " would be worth it)";
     case StopRule::kConverged:
       return r.name + " has converged";
     case StopRule::kAllEvaluated:

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/text/counted.h"
 #include "base/text/duration_text.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
@@ -75,9 +76,8 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
           trials.begin(), trials.end(),
           [&](const journal::TrialRecord& t) { return kind.Is(t) && t.IsOfSearch(); });
       text += "  " + campaign.experiments[e].name + " at scale factor " +
-              base::ShortNumber(factor) + ": " + std::to_string(count) +
-              " trials besides those that confirm; " +
-              BestLine(trials, campaign, references[e], kind);
+              base::ShortNumber(factor) + ": " + base::Counted(count, "trial") +
+              " besides those that confirm; " + BestLine(trials, campaign, references[e], kind);
     }
   }
   return text;

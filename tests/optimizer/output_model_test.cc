@@ -76,6 +76,18 @@ TEST(OutputModel, NoiseOfElementsIsThatOfTheData) {
   EXPECT_NEAR(std::sqrt(model.ElementNoise().mean()) / 0.1, 1, 0.3);
 }
 
+// Heaps have N ∝ f⁻³ grains, and their mean a variance of 1/N: what the finest ones at 1.5 scatter
+// by is a (1/1.5)³ smaller variance at 1.
+TEST(OutputModel, NoiseAtAFinerTargetIsThatOfMoreGrains) {
+  OutputData data = MakeData(0.1);
+  for (int i = 0; i < kPoints; ++i) data.level[static_cast<std::size_t>(i)] = i % 3;
+  const OutputModel model({.levels = Levels({3, 2, 1.5}, 1)}, data, nullptr);
+  ASSERT_GT(model.num_modes(), 0);
+  for (Eigen::Index k = 0; k < model.num_outputs(); ++k) {
+    EXPECT_NEAR(model.TargetNoise(k) / model.output(k).noise_variance(2), 8.0 / 27, 1e-12);
+  }
+}
+
 TEST(OutputModel, LeaveOneOutIsFittingWithoutTheEvaluation) {
   const OutputData all = MakeData(0.05);
   const OutputModel model({}, all, nullptr);

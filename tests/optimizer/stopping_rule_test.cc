@@ -38,6 +38,8 @@ TEST(StoppingRule, CalibrationsEndWhereNoNumberOfTrialsWouldNarrowARange) {
   EXPECT_EQ(reason->rule, StopRule::kShare);
   EXPECT_DOUBLE_EQ(reason->value, 0.049);
   EXPECT_THAT(TextOf(*reason), HasSubstr("by more than 4.9 %"));
+  EXPECT_THAT(TextOf(StopReason{.rule = StopRule::kShare, .value = 4e-5, .limit = 0.1}),
+              HasSubstr("no number of them any range by as much as 0.01 %, and 10 %"));
   EXPECT_FALSE(StopByOutlook({.all = {0.051, 0.02}, .temper = 1.1}, 0.05));
   EXPECT_FALSE(StopByOutlook({.all = {0.028}, .temper = 2.9},
                              0.05));  // an early model that misses a third of its trials

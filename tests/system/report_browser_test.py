@@ -89,6 +89,23 @@ class ReportInABrowser(ReportPage):
         self.check_log()
         self.keep_screenshot("one")
 
+    def test_of_one_parameter_a_ring_is_at_the_mean_of_its_repeats(self):
+        self.open_report("three", 60, 3, "finished")
+        self.will_change_the_page()
+        # It stood at the first of them.
+        rings, sad, text = self.driver.execute_script(
+            "D.parameters = D.parameters.slice(0, 1); document.getElementById('space').id = 'former';"
+            "const rows = doneTrials().slice(0, 2), best = D.objectives[0].trials.best[0];"
+            "best.trials = rows.map((i) => D.trials.id[i]);"
+            "document.getElementById('space-section').append(spaceChart()); talusCharts[talusCharts.length - 1].start();"
+            "const option = echarts.getInstanceByDom(document.getElementById('space')).getOption();"
+            "const ring = option.series.find((s) => s.name.startsWith('ten best by SAD')).data[0];"
+            "return [ring.value, rows.map(valuesOf(D.objectives[0]).value),"
+            " option.tooltip[0].formatter({data: ring})]")
+        self.assertAlmostEqual(rings[1], sum(sad) / 2, places=9)
+        self.assertTrue(text.startswith("Mean of trials "), text)
+        self.check_log()
+
     def test_table_sorts_filters_and_turns_pages(self):
         self.open_report("three", 60, 3, "finished")
         self.will_change_the_page()
@@ -133,6 +150,11 @@ class ReportInABrowser(ReportPage):
                 self.check_charts()
                 width = self.driver.execute_script("return document.documentElement.scrollWidth")
                 self.assertEqual(width, 390)
+                if name == "three":  # "γ (J/m²)" was cut off at the edge
+                    axes = self.driver.execute_script(
+                        "const made = echarts.getInstanceByDom(document.getElementById('space')).getOption();"
+                        "return (made.zAxis3D || []).map((axis) => axis.name)")
+                    self.assertIn(axes, ([], ["γ"]))
                 self.keep_screenshot("phone_" + name)
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

@@ -212,7 +212,7 @@ class ReportOfKnownData(ReportPage):
                          [self.numbers_of("'≥ ' + formatUnit(%r, 'mm²')" % known[int(.9 * (len(known) - 1))]),
                           self.numbers_of("'SAD  ' + format(%r)" % known[0])])
         self.assertEqual(self.option("space", "of('recommended').data"), [[.32, .21, 0, -1]])
-        self.assertEqual([trials["id"][i] for i in self.option("space", "of('ten best by SAD').data.map((p) => p[3])")],
+        self.assertEqual([trials["id"][i] for i in self.option("space", "of('ten best by SAD').data.map((p) => p.value[3])")],
                          [b["trials"][0] for b in data["objectives"][0]["trials"]["best"]])
         slice_ = data["slices"][1]
         series = "o.series.map((s) => s.data.map((p) => p[1]))"

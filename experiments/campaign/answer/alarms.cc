@@ -120,14 +120,51 @@ bool HasRanges(const Answer& answer) {
       answer.parameters, [](const ResultParameter& p) { return std::isfinite(p.credible_low); });
 }
 
+constexpr const char* kExpected = "its model expected this set to fit";
+
 // The model held the recommended set for one that fits this image.
-bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
+std::optional<std::string> FaultOfImage(const Answer& answer, const ResultExperiment& experiment,
+                                        const ResultStanding& standing) {
+  if (!experiment.noise_floor || !MinimisesSad(answer)) return std::nullopt;
+  const bool was_expected = standing.predicted <= kCloseRuns * *experiment.noise_floor &&
+                            PredictionAlarm(answer, experiment);
+  return was_expected ? std::optional<std::string>(kExpected) : std::nullopt;
+}
+
+// The confirming trials of a number are off its prediction by more than chance, or have none.
+bool IsSurprise(const ResultScalar& confirmed, const optimizer::NumberStanding& expected) {
+  if (confirmed.undefined) return true;
+  const double error = std::hypot(OrZero(confirmed.standard_error), expected.predicted_sd);
+  return std::abs(confirmed.mean - expected.predicted) > kSurprise * error;
+}
+
+// The same of a number; or the model's own error, the larger one, leaves open whether the set gives
+// it. Where no set does, a model that knows enough predicts the miss.
+std::optional<std::string> FaultOfNumber(const Answer& answer, const ResultExperiment& experiment,
+                                         const ResultStanding& standing, std::size_t number) {
+  const ResultConfirmed* confirmed = ConfirmedAtTarget(answer, experiment.name);
+  if (confirmed == nullptr || number >= standing.numbers.size()) return std::nullopt;
+  const optimizer::NumberStanding& expected = standing.numbers[number];
+  const double error = experiment.numbers[number].standard_error;
+  const double off = std::abs(expected.predicted - experiment.numbers[number].value);
+  if (off <= kCloseNumber * error && IsSurprise(confirmed->scalars.at(number), expected)) {
+    return kExpected;
+  }
+  const bool may_fit = off <= kCloseNumber * std::hypot(error, expected.predicted_sd);
+  if (!may_fit || !(expected.predicted_sd > error)) return std::nullopt;
+  return "its model is too coarse there to tell whether this set fits";
+}
+
+// Why the model that chose the recommended set is to blame for this miss.
+std::optional<std::string> FaultOfModel(const Answer& answer, const MeasurementFit& fit) {
   const ResultStanding* standing = StandingOf(answer, fit.experiment);
   const auto experiment =
       std::ranges::find(answer.experiments, fit.experiment, &ResultExperiment::name);
-  if (!fit.number.empty() || standing == nullptr || !experiment->noise_floor) return false;
-  return MinimisesSad(answer) && standing->predicted <= kCloseRuns * *experiment->noise_floor &&
-         PredictionAlarm(answer, *experiment);
+  if (standing == nullptr) return std::nullopt;
+  if (fit.number.empty()) return FaultOfImage(answer, *experiment, *standing);
+  const auto number = std::ranges::find(experiment->numbers, fit.number, &ResultNumber::name);
+  return FaultOfNumber(answer, *experiment, *standing,
+                       static_cast<std::size_t>(number - experiment->numbers.begin()));
 }
 
 // Why a miss is the search's, which has not found what may fit; nothing where it has done its part.
@@ -143,7 +180,7 @@ std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFi
                                      : "misses less on the whole");
   }
   if (!answer.posterior && !HasRanges(answer)) return "there are too few simulations for a model";
-  if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
+  if (auto fault = FaultOfModel(answer, fit)) return fault;
   if (answer.posterior && !answer.posterior->unlearnt_scale_factors.empty()) {
     return "too few of its trials are at scale factor " +
            base::ShortNumber(answer.posterior->unlearnt_scale_factors.front()) +

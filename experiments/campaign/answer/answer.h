@@ -90,7 +90,7 @@ struct ResultConditions {
   double scale_factor = 1;
   double surface_energy_exponent = 1;
   double youngs_modulus = 0;            // [Pa]
-  std::vector<ResultDevice> devices{};  // of each experiment
+  std::vector<ResultDevice> devices{};  // of each experiment that it is from
   std::string adhesion{};
   std::string rolling{};
   std::string command{};  // of another engine, whose deck has the laws; empty: ours

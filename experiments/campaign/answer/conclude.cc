@@ -96,7 +96,7 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   return confirmed;
 }
 
-// Scatter of a metric from seed to seed, within every set that was simulated again.
+// Scatter of a metric from seed to seed, pooled from within the confirmed sets.
 base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidate>& simulated,
                               int experiment, std::string_view metric) {
   base::PooledScatter scatter;
@@ -106,8 +106,9 @@ base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidat
   return scatter;
 }
 
-// Two or three seeds say little of their own scatter; all sets that were simulated again say more,
-// and of one seed of each the model alone says something. `target`: the scale factor that it is of.
+// Two or three seeds say little of their own scatter; those of all confirmed sets together say
+// more, and where each has one seed the model alone says something. `target`: the scale factor that
+// it is of.
 void AddStandardErrors(Planner& planner, const Eigen::VectorXd& recommended,
                        const std::vector<Candidate>& simulated, double target, Answer& result) {
   const std::string_view sad_metric = journal::InfoOf(journal::Objective::kSad).metric;
@@ -263,6 +264,7 @@ ResultConditions ConditionsOf(const CampaignSpec& spec, const Eigen::VectorXd& p
   }
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
+    if (experiments[e].name == spec.hold_out) continue;  // the answer does not come from it
     conditions.devices.push_back(
         {.experiment = experiments[e].name,
          .text = rigs::DeviceText(TypicalCase(spec, static_cast<int>(e), target).rig)});

@@ -1,5 +1,6 @@
 #include "experiments/campaign/answer/remains.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,13 +44,19 @@ std::optional<Simulated> SimulatedAt(const Eigen::VectorXd& point, int experimen
                        evidence.references[static_cast<std::size_t>(experiment)].ImageOf(field)};
 }
 
-// "wide plate, picture 2 of 3: 12 mm2, 4.1 % of the powder's area; mean of 3 simulations"
+bool IsAscii(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return c < 128; });
+}
+
+// "wide plate, picture 2 of 3: 12 mm2, 4.1 % of the powder's area; mean of 3 simulations". The
+// picture's font has ASCII only: of another name page and file tell.
 std::string TitleOf(const ResultRemains& remains, int num_pictures) {
-  std::string title = remains.experiment;
+  std::string title = IsAscii(remains.experiment) ? remains.experiment : "";
   if (num_pictures > 1) {
-    title += ", picture " + std::to_string(remains.picture) + " of " + std::to_string(num_pictures);
+    title += (title.empty() ? "" : ", ") + std::string("picture ") +
+             std::to_string(remains.picture) + " of " + std::to_string(num_pictures);
   }
-  title += ": " + base::ShortNumber(remains.sad_mm2, 3) + " mm2";
+  title += (title.empty() ? "" : ": ") + base::ShortNumber(remains.sad_mm2, 3) + " mm2";
   if (remains.share) {
     title += ", " + base::ShortNumber(100 * *remains.share, 2) + " % of the powder's area";
   }

@@ -19,8 +19,7 @@ struct ResultScalar {
   std::string name{};
   int num_trials = 0;  // that have it
   double mean = base::kNotKnown;
-  // The mean's, by the scatter within all sets that were simulated again; where each has one trial,
-  // by the model.
+  // The mean's, by the scatter within all confirmed sets; where each has one trial, by the model.
   double standard_error = base::kNotKnown;
   int degrees = 0;  // of freedom that the standard error has; 0: it is the model's, or not known
   std::optional<std::string> undefined{};  // why none of the trials has a value

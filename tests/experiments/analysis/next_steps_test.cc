@@ -82,6 +82,28 @@ TEST(NextSteps, SimulationsThatAnAlarmAsksForComeFirst) {
   }
 }
 
+// The budget ended a search whose region was still the surrogate's: a different test would begin
+// where that is not known.
+TEST(NextSteps, SimulationsComeFirstWhileTheRegionMayMove) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  campaign::Answer& answer = *evidence.answer;
+  answer.stop = {.kind = campaign::StopKind::kSimulations, .value = 8};
+  answer.unsettled.emplace().lacks = optimizer::StopLack::kFirstTrials;
+  answer.posterior->surrogate_narrowing = 0.79;
+  std::vector<NextStep> steps = NextSteps(evidence, {});
+  ASSERT_GT(steps.size(), 1u);
+  EXPECT_THAT(steps[0].what, StartsWith("Simulate more: talus resume"));
+  EXPECT_EQ(steps[0].leaves, "ranges narrower by up to 79 %");
+  answer.unsettled = {.lacks = optimizer::StopLack::kShare,
+                      .narrowing = {{.parameter = "sliding_friction", .share = 0.4}},
+                      .num_more = 20};
+  steps = NextSteps(evidence, {});
+  EXPECT_THAT(steps[0].what, StartsWith("Simulate more: talus resume"));
+  EXPECT_EQ(steps[0].leaves, "ranges narrower by 40 % of sliding_friction");
+  answer.posterior->surrogate_narrowing = 0.2;  // the measurements leave more open
+  EXPECT_EQ(NextSteps(evidence, {})[0].what, "Add a different kind of test");
+}
+
 // Given the first parameter, the bent valley of the synthetic posterior leaves little of the
 // second.
 TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/heap_pair.h"
+#include "experiments/analysis/next/judge_test.h"
+#include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/analysis/report/data/report_data.h"
@@ -26,11 +30,18 @@ class NextTest : public NextFixture {};
 TEST_F(NextTest, RanksWhatTrialsAlreadyTellAndAsksForTheOthers) {
   const JointView view = Run();
   const NextTable table = Rank(view, UsualTests(view), false);
-  for (const char* name : {"more runs of heap", "more simulations of heap",
-                           "mass on the plate of heap", "wide plate, 5 cm/s", "wide plate, 20 cm/s",
-                           "rough plate", "tapped density", "column collapse", "tilting box",
-                           "shear cell", "orifice flow", "funnel heap", "drum, 30 rpm"}) {
-    EXPECT_GE(Find(table, name).num_simulations, 0);
+  // A test as many as the heap took, more of the same as many as there are at the finest; none for
+  // what is measured of heaps that are simulated.
+  const int finest = static_cast<int>(
+      std::ranges::count(view.observations, 1.0, &optimizer::Observation::scale_factor));
+  ASSERT_GT(finest, 3);
+  ASSERT_EQ(view.observations.size(), 24u);
+  EXPECT_EQ(Find(table, "more runs of heap").num_simulations, 0);
+  EXPECT_EQ(Find(table, "more simulations of heap").num_simulations, finest);
+  for (const char* name : {"wide plate, 5 cm/s", "wide plate, 20 cm/s", "rough plate",
+                           "tapped density", "column collapse", "tilting box", "shear cell",
+                           "orifice flow", "funnel heap", "drum, 30 rpm"}) {
+    EXPECT_EQ(Find(table, name).num_simulations, 24) << name;
   }
   ASSERT_EQ(table.candidates.size(), 13u);  // the finest grains are the true ones already
   const NextCandidate& mass = Find(table, "mass on the plate of heap");
@@ -253,6 +264,57 @@ TEST_F(NextTest, FinerGrainsAreWorthMoreWhereTheModelErrorLeavesMore) {
   const NextCandidate& more = Find(table, "more simulations of heap");
   // The step is √2 and core time goes with f⁻⁴.
   EXPECT_NEAR(finer.core_time / more.core_time, 4, 1e-9);
+  // Heaps of grains that are √2 finer scatter by 2^(-3/2) of the variance, and so what no
+  // simulation can match; of the runs' and the surrogate's error as many again leave the half.
+  const auto strategy = campaign::AnsweringStrategy(view);
+  const Ground ground{.view = view,
+                      .temper = strategy->Model().temper(),
+                      .draws = strategy->Sample().Draws(1000, view.spec.seed)};
+  const Known heap = KnownExperiments(ground, strategy->Model()).front();
+  const auto bits = [&](const Eigen::ArrayXd& less) {
+    const Eigen::ArrayXd now = heap.at.measured + heap.at.model + heap.surrogate;
+    const Eigen::ArrayXd own = (1 / (now - less) - 1 / now).inverse();
+    return ground.Learn({.mean = heap.at.mean, .variance = own}).bits;
+  };
+  EXPECT_NEAR(finer.learning->bits, bits((1 - std::pow(2, -1.5)) * heap.at.model), 1e-9);
+  EXPECT_NEAR(more.learning->bits, bits(heap.surrogate / 2), 1e-9);
+  EXPECT_NEAR(Find(table, "more runs of heap").learning->bits, bits(heap.at.measured / 2), 1e-9);
+}
+
+// The errors a and b of two tests were learnt: a third is taken to have √((a² + b²)/2).
+TEST_F(NextTest, ATestThatWasNotMadeErrsAsThoseThatWere) {
+  const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / "in", R"(,
+    "coarse_graining": {"scale_factor": 2},
+    "budget": {"simulations": 16}, "confirm": {"candidates": 0}, "workers": 1)");
+  nlohmann::json text = nlohmann::json::parse(base::ReadFile(spec));
+  text["experiments"] = {
+      text["experiment"],
+      {{"name", "balance"}, {"mass_fallen", {{"value", "50 mg"}, {"sd", "1 mg"}}}}};
+  text["experiments"][0]["name"] = "heap";
+  text.erase("experiment");
+  base::WriteFileAtomically(spec, text.dump());
+  folder_ = scratch_.path() / "run";
+  campaign::BeginCampaign(spec, folder_);
+  campaign::RunFake(folder_, kSharp);
+  JointView view = campaign::ReadJointView(folder_);
+  view.spec.posterior.learn_model_error = true;  // by the answer alone: it slows a search down
+  const TestCandidate test{.name = "again"};
+  const NextTable table = Rank(view, {test}, true);
+  const auto strategy = campaign::AnsweringStrategy(view);
+  const auto& models = strategy->Model().models();
+  ASSERT_EQ(models.size(), 2u);
+  const double a = models[0].model_error().value, b = models[1].model_error().value;
+  ASSERT_GT(std::abs(a - b), 0.05);  // else the root mean square is the mean
+  Ground ground{.view = view,
+                .draws = strategy->Sample().Draws(1000, view.spec.seed),
+                .model_error = std::sqrt((a * a + b * b) / 2)};
+  ground.surrogate_share = SurrogateShare(KnownExperiments(ground, strategy->Model()));
+  const std::optional<TestDesign> design = StoredDesign(view, test, *Parts(view).engine);
+  NextCandidate judged{.name = test.name};
+  JudgeTest(ground, {.test = test, .design = design.value(), .unknown = {}}, judged);
+  const Eigen::ArrayXd expected = judged.predicted.variance;
+  const Eigen::ArrayXd variance = Find(table, test.name).predicted.variance;
+  EXPECT_LT((variance / expected - 1).abs().maxCoeff(), 1e-9);
 }
 
 TEST_F(NextTest, TooFewTrialsForAPosteriorAreSaid) {

@@ -10,6 +10,7 @@
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/labels.h"
+#include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/answer_words.h"
@@ -265,6 +266,21 @@ TEST_F(Report, AMissIsSaidFirstAndNothingIsSaidToFit) {
   EXPECT_THAT(page["headline"]["use"].get<std::string>(), StartsWith("No: "));
 }
 
+// Before a set is simulated again, the heap beside the photographs is the best by the campaign's
+// own objective; it was the best by SAD.
+TEST_F(Report, TheFirstHeapIsTheBestByTheObjective) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  std::erase_if(evidence.trials, [](const TrialEvidence& trial) {
+    return trial.kind == journal::TrialKind::kConfirm;
+  });
+  evidence.answer.reset();
+  evidence.objective = "aor2";
+  const ReportData data = MakeReportData(evidence);
+  const int best = data.own().from_trials.best.front().trials.front();
+  ASSERT_NE(best, data.findings[0].from_trials.best.front().trials.front());
+  EXPECT_EQ(data.overlay.trial->id, best);
+}
+
 TEST(AnswerWords, PowersOfTenAreThoseOfPrint) {
   EXPECT_EQ(WithPowers("γ 3e-05 (90 %: 2.35e-05 to 1e+12)."),
             "γ 3 × 10⁻⁵ (90 %: 2.35 × 10⁻⁵ to 1 × 10¹²).");
@@ -406,6 +422,16 @@ TEST(GatherEvidence, TheModelIsOfTheObjectiveThatTheResultIsOf) {
   test::WriteSyntheticJournal(evidence, folder);
   EXPECT_EQ(campaign::ReadJointView(folder).spec.objective, journal::Objective::kAor2);
   std::filesystem::remove_all(folder);
+}
+
+// It said "by the SAD" whatever was minimised.
+TEST(Methods, NameTheObjectiveWhereNoPosteriorComparesTheImagesThemselves) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.fit = {{.experiment = "heap", .what = "shape", .measured = "5 heaps"}};
+  EXPECT_THAT(MethodsText(MakeReportData(evidence)), HasSubstr("average profile. The strategy"));
+  evidence.answer->posterior.reset();
+  evidence.objective = "aor2";
+  EXPECT_THAT(MethodsText(MakeReportData(evidence)), HasSubstr("average profile, by the AOR 2."));
 }
 
 TEST(Methods, SayWhatWasConfirmedAndCountWhatFailedAsChosen) {

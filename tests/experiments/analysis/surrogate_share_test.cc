@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "experiments/analysis/next/judge_test.h"
@@ -23,6 +24,24 @@ TEST(Known, SurrogateShareIsTheMeanOverTheOutputsOfAllExperiments) {
   number.at.measured = Eigen::VectorXd::Constant(1, 2);
   number.at.model = Eigen::VectorXd::Constant(1, 1);
   EXPECT_NEAR(SurrogateShare({image, number}), (0.5 + 0.75 + 0.25) / 3, 1e-15);
+}
+
+// Of a measured, a model's and a surrogate's variance of 1 each one is taken away. From 3 to 2 they
+// fall by a measurement of variance 1/(1/2 - 1/3), and of twice that where misfits count half.
+TEST(Known, LessVarianceIsWhatAMeasurementByItselfWouldLeave) {
+  constexpr int kSets = 200;
+  const campaign::JointView view{};
+  const Ground ground{.view = view, .draws = Eigen::VectorXd::LinSpaced(kSets, 0, 1)};
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+  Known known{.at = {}, .surrogate = one, .weight = 0.5};
+  known.at.mean = 20 * ground.draws;
+  known.at.measured = known.at.model = one;
+  const double spread = 400 * kSets * (kSets + 1.0) / (12 * (kSets - 1.0) * (kSets - 1.0));
+  const auto bits = [&](double variance) { return 0.5 * std::log2(1 + spread / variance); };
+  EXPECT_NEAR(LearnWhenLess(ground, known, one).bits, bits(12), 1e-9);
+  EXPECT_NEAR(LearnWithoutSurrogate(ground, {known}).bits, bits(12), 1e-9);
+  known.weight = 1;
+  EXPECT_NEAR(LearnWhenLess(ground, known, one).bits, bits(6), 1e-9);
 }
 
 // With half of its variance the surrogate's, a test's errors are √2 times as large.

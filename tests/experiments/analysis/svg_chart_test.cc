@@ -61,6 +61,15 @@ TEST(SvgChart, TicksOfALargeValueThatChangesLittleAreToldApartAndSeen) {
   EXPECT_GT(width(chart), 640 - 72 + 14 * 8 + 20);
 }
 
+// Seven digits of -1 000 000.5 are those of -10⁶, which is written otherwise.
+TEST(SvgChart, ATickThatIsRoundedToAPowerOfTenIsToldApartFromIt) {
+  const std::string chart =
+      SvgChart({.title = "x"}, {.title = "y", .low = -1000001, .high = -999998.5}).Text();
+  EXPECT_THAT(chart, HasSubstr(">-1 × 10⁶<"));
+  EXPECT_THAT(chart, HasSubstr(">-1000000.5<"));
+  EXPECT_THAT(chart, Not(HasSubstr(">-1000000<")));
+}
+
 // Only powers of ten were ticks: an axis of less than a decade had one or none.
 TEST(SvgChart, AShortLogarithmicAxisHasTicks) {
   const std::string chart = SvgChart({.title = "x", .low = 0.2, .high = 0.9, .log = true},

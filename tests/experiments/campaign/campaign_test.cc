@@ -215,6 +215,14 @@ TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
   EXPECT_EQ(search(Trials(folder)).size(), 17u);
 }
 
+TEST_F(CampaignTest, TheStatusSpeaksOfOneTrial) {
+  const fs::path folder = Begin(R"(, "strategy": {"kind": "sobol"}, "workers": 1,
+    "budget": {"simulations": 1}, "noise": {"replicates": 0}, "confirm": {"candidates": 0})");
+  RunFake(folder, {});
+  EXPECT_THAT(StatusText(folder), HasSubstr(": 1 trial besides those that confirm; "));
+  EXPECT_THAT(StatusText(folder), HasSubstr("1 of 1 simulation\n"));
+}
+
 // It named the best trial by SAD beside an answer in degrees.
 TEST_F(CampaignTest, TheStatusIsByTheObjectiveOfTheResult) {
   const fs::path folder = Finished(kSmall);

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
+#include "base/text/number_text.h"
 #include "experiments/journal/database.h"
+#include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/film_strip.h"
 #include "tests/experiments/campaign_fixture.h"
@@ -33,22 +37,28 @@ class FilmCampaign : public CampaignFixture {
       maps += (i > 0 ? R"(, {"map": ")" : R"({"map": ")") + file + "\"}";
     }
     const std::string images = num_pictures > 1 ? R"("film": [)" + maps + "]" : R"("map": "0.png")";
-    std::ofstream(in / "spec.json")
-        << R"({"experiments": [{"name": "column", "plate_diameter": "10 mm", )" << images << R"(,
+    std::ofstream(in / "spec.json") << R"({"experiments": [{"name": ")" << experiment_
+                                    << R"(", "plate_diameter": "10 mm", )" << images << R"(,
         "rig": {"kind": "column_collapse", "length": "10 mm", "camera": {"times": [)"
-        << times << R"(]}},
+                                    << times << R"(]}},
         "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
                   "baseline_px": 76, "plate_diameter": "10 mm"}}],
         "powder": {"material": {"density": 2500},
                    "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
         "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
                        "rolling_friction": {"min": 0.05, "max": 0.5}}, "next": {"share": 0},
-        "workers": 1)"
-        << more << "}";
+        "workers": 1)" << more << "}";
     BeginCampaign(in / "spec.json", scratch_.path() / name);
     return scratch_.path() / name;
   }
+  std::string experiment_ = "column";
 };
+
+// What is written above a map that is `width` pixels wide.
+std::vector<std::uint8_t> BandOf(const imaging::GrayImage& map) {
+  constexpr int kHigh = 18;  // [px]
+  return {map.pixels.begin(), map.pixels.begin() + kHigh * map.width};
+}
 
 constexpr const char* kSameSets = R"(, "strategy": {"kind": "sobol"},
     "budget": {"simulations": 24}, "confirm": {"candidates": 1, "ends": false, "replicates": 2})";
@@ -113,6 +123,24 @@ TEST_F(FilmCampaign, AnInterruptedOneGoesOnWithTheSameBits) {
   EXPECT_EQ(RunFake(cut, {.film_grows = true}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(cut), TrialTable(whole));
   EXPECT_EQ(base::ReadFile(cut / "posterior.csv"), base::ReadFile(whole / "posterior.csv"));
+}
+
+// The font of the pictures has ASCII only: "größer" was "gr????er".
+TEST_F(FilmCampaign, AMapLeavesOutANameThatItsFontDoesNotHave) {
+  experiment_ = "größer";
+  const fs::path folder = BeginFilm("named", 2, true, kSameSets);
+  EXPECT_EQ(RunFake(folder, {.film_grows = true}), CampaignEnd::kFinished);
+  const ResultRemains remains = Result(folder).remains.at(0);
+  EXPECT_EQ(remains.experiment, experiment_);
+  const imaging::GrayImage map = imaging::ReadGrayImage(folder / remains.file);
+  imaging::ColorImage band = imaging::MakeCanvas(map.width, map.height);
+  imaging::DrawText(band, {.text = "picture 1 of 2: " + base::ShortNumber(remains.sad_mm2, 3) +
+                                   " mm2, " + base::ShortNumber(100 * remains.share.value(), 2) +
+                                   " % of the powder's area; mean of 2 simulations",
+                           .at = {10, 9},
+                           .size = 0.42});
+  imaging::WritePng(scratch_.path() / "band.png", band);
+  EXPECT_EQ(BandOf(map), BandOf(imaging::ReadGrayImage(scratch_.path() / "band.png")));
 }
 
 // The trials' folders hold the films, and campaign.json the experiment's.

@@ -101,6 +101,8 @@ TEST_F(HoldingOut, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   EXPECT_GT(result.parameters[0].credible_low, 0.2);
   ASSERT_EQ(result.posterior.value().experiments.size(), 1u);
   EXPECT_EQ(result.posterior->experiments[0].name, "heap");
+  ASSERT_EQ(result.conditions.devices.size(), 1u);  // it holds for what it is made from
+  EXPECT_EQ(result.conditions.devices[0].experiment, "heap");
   const ResultHeldOut& held_out = result.held_out.value();
   EXPECT_EQ(held_out.name, "fast lift");
   ASSERT_EQ(held_out.numbers.size(), 1u);

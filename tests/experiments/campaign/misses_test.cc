@@ -228,6 +228,47 @@ TEST_F(MissedImage, IsOfTheSearchWhereTheRegionIsStillTheSurrogates) {
   EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
 }
 
+// An angle measured at 30° ± 0.5°; three seeds of each of three sets scatter by 0.24°.
+class MissedAngle : public testing::Test {
+ protected:
+  // Its only alarm.
+  static Alarm Of(const optimizer::NumberStanding& expected, double confirmed) {
+    Answer answer = ConfirmedAt(4);
+    answer.experiments[0].has_image = false;
+    answer.experiments[0].numbers = {{.name = "angle_deg", .value = 30, .standard_error = 0.5}};
+    answer.posterior->experiments[0].numbers = {expected};
+    HeapOf(answer).scalars = {{.name = "angle_deg",
+                               .num_trials = 3,
+                               .mean = confirmed,
+                               .standard_error = 0.14,
+                               .degrees = 6}};
+    const auto alarms = MissAlarms(answer);
+    EXPECT_THAT(alarms, SizeIs(1));
+    return alarms.empty() ? Alarm{} : alarms.front();
+  }
+};
+
+// The law was blamed for five of twelve campaigns of two parameters that had stopped after 21
+// simulations; 20 more of them met the angle.
+TEST_F(MissedAngle, IsOfTheSearchWhereItsModelDoesNotKnowTheSetAsWellAsItWasMeasured) {
+  const Alarm alarm = Of({.predicted = 31.8, .predicted_sd = 1.75}, 32);
+  EXPECT_EQ(alarm.kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(alarm), HasSubstr("too coarse there to tell whether this set fits"));
+}
+
+TEST_F(MissedAngle, IsOfTheSearchWhereItsModelExpectedAFit) {
+  const Alarm alarm = Of({.predicted = 30.6, .predicted_sd = 0.3}, 32);
+  EXPECT_EQ(alarm.kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(alarm), HasSubstr("its model expected this set to fit"));
+}
+
+// A law that ends at 28°, and one that begins at 31.5°.
+TEST_F(MissedAngle, IsOfTheSetUpWhereTheModelKnowsThatItIsNotReached) {
+  EXPECT_EQ(Of({.predicted = 28.2, .predicted_sd = 0.56}, 27.9).kind, AlarmKind::kMisses);
+  EXPECT_EQ(Of({.predicted = 31.3, .predicted_sd = 0.18}, 31.6).kind, AlarmKind::kMisses);
+  EXPECT_EQ(Of({.predicted = 30.9, .predicted_sd = 0.4}, 31.5).kind, AlarmKind::kMisses);
+}
+
 // A heap of grains twice as large may miss what true ones would meet; true ones have no such
 // excuse.
 TEST_F(MissedImage, MayBeOfCoarseGrains) {

@@ -131,7 +131,9 @@ std::vector<Tick> LabelledTicks(const SvgAxis& axis) {
   for (int digits = kFewest; digits <= kMost; ++digits) {
     ticks.clear();
     for (const double tick : TicksOf(axis)) ticks.push_back({tick, TickText(tick, digits)});
-    if (std::ranges::adjacent_find(ticks, {}, &Tick::text) == ticks.end()) break;
+    // As numbers: a power of ten is written otherwise than a neighbour that is rounded to it.
+    const auto rounded = [&](const Tick& tick) { return base::ShortNumber(tick.at, digits); };
+    if (std::ranges::adjacent_find(ticks, {}, rounded) == ticks.end()) break;
   }
   return ticks;
 }

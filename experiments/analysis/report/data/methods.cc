@@ -81,9 +81,11 @@ std::string Measured(const ReportData& data) {
                });
       });
   return " Simulations were compared with " + base::Listed(words) +
-         (has_images ? "; images after projection into the frame of the experiment's average "
-                       "profile, by the SAD."
-                     : ".");
+         (has_images
+              ? "; images after projection into the frame of the experiment's average profile" +
+                    // A posterior compares the images themselves.
+                    (answer.posterior ? "" : ", by the " + data.own().info.title) + "."
+              : ".");
 }
 
 struct Counts {

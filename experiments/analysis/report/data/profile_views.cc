@@ -40,6 +40,19 @@ void AddOutlines(const OutlineCurve& like, const imaging::Profile& profile, Repo
   }
 }
 
+// The best by the campaign's own objective; where nothing can be said by that, by another one. Null
+// without images.
+const TrialEvidence* BestShown(const ReportData& data, const std::vector<ShownTrial>& shown) {
+  if (!data.evidence.reference.has_image()) return nullptr;
+  const ObjectiveFinding& own = data.own();
+  for (const ShownTrial& s : shown) {
+    if (own.absent.empty() && s.trial->id == own.from_trials.best.front().trials.front()) {
+      return s.trial;
+    }
+  }
+  return shown.empty() ? nullptr : shown.front().trial;
+}
+
 // The campaign's own map of what remains at the recommended set, after those of single trials.
 void AddRemains(ReportData& data) {
   const Evidence& evidence = data.evidence;
@@ -77,7 +90,7 @@ void AddProfileViews(ReportData& data) {
   AddRemains(data);
   data.representative = RepresentativeViews(data.evidence, data.left_out);
   data.film = FilmOf(data.evidence);
-  data.overlay = MakeOverlay(data.evidence, shown, data.left_out);
+  data.overlay = MakeOverlay(data.evidence, BestShown(data, shown), data.left_out);
   if (data.overlay.photographs.empty()) return;
   data.overlay_outlines = {
       MakeOutline("experiment (AEHP)", reference.aehp),

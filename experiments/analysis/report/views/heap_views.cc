@@ -193,11 +193,10 @@ std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence, Le
   return views;
 }
 
-PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
-                         LeftOut& left_out) {
+PhotoOverlay MakeOverlay(const Evidence& evidence, const TrialEvidence* best, LeftOut& left_out) {
   PhotoOverlay overlay{.photographs = {}, .simulated = {}};
-  if (shown.empty() || !evidence.reference.has_image()) return overlay;
-  overlay.trial = shown.front().trial;
+  if (best == nullptr || !evidence.reference.has_image()) return overlay;
+  overlay.trial = best;
   if (const TrialEvidence* confirming = ConfirmingTrial(evidence)) overlay.trial = confirming;
   const std::vector<base::Sphere> grains = GrainsOf(evidence, overlay.trial->id, left_out);
   const auto profile = evidence.profile(overlay.trial->id);

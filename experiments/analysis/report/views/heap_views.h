@@ -35,9 +35,8 @@ struct PhotoOverlay {
   std::string absent{};  // why there are no photographs to show
 };
 
-// The heap of the confirming trial, or of the best one before there is one. No photographs where
-// the spec's are no longer there, or the experiment is a map.
-PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
-                         LeftOut& left_out);
+// The heap of the confirming trial, or of the best one before there is one; null without any. No
+// photographs where the spec's are no longer there, or the experiment is a map.
+PhotoOverlay MakeOverlay(const Evidence& evidence, const TrialEvidence* best, LeftOut& left_out);
 
 }  // namespace talus::analysis

@@ -152,7 +152,15 @@ std::string NarrowingText(const campaign::ResultUnsettled& unsettled) {
   return text;
 }
 
-// First where an alarm asks for it.
+// Whether the budget ended a search that may still move the region.
+bool MayMoveTheRegion(const campaign::Answer& answer) {
+  if (!answer.posterior || !answer.unsettled) return false;
+  return answer.unsettled->narrowing.empty() ||
+         campaign::IsProvisional(answer.posterior->surrogate_narrowing);
+}
+
+// First where an alarm asks for it, and while the region, which all other steps are worked out
+// from, may still move.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const campaign::Answer& answer = *evidence.answer;
   const bool asked = campaign::AsksForSimulations(answer);
@@ -170,6 +178,13 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   if (const double volume = VolumeThen(answer); std::isfinite(volume)) {
     step.leaves = "ranges narrower by " + NarrowingText(*answer.unsettled);
     step.remaining = volume;
+  }
+  if (MayMoveTheRegion(answer)) {
+    const double share = answer.posterior->surrogate_narrowing;
+    if (answer.unsettled->narrowing.empty() && share > 1 - kNoNarrower) {
+      step.leaves = "ranges narrower by up to " + base::InPercent(share) + " %";
+    }
+    step.remaining = kBeforeAll;
   }
   if (asked) {
     step.leaves = "an answer that the warnings above do not hang on";

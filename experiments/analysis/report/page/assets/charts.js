@@ -203,11 +203,19 @@ const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<b
 
 const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "ok");
 const isOfSearch = (i) => D.trials.purpose[i] !== "confirm";
+// Of those rows of a column that have a value; null without any.
+function meanOf(column, rows) {
+  const known = rows.map((i) => column[i]).filter((x) => x !== null);
+  return known.length ? known.reduce((a, b) => a + b) / known.length : null;
+}
 // How far trial i is from an objective's aim, and the trials that tell; none where no trial has its metric yet.
 function valuesOf(objective) {
   const t = D.trials, m = D.metrics.findIndex((metric) => metric.name === objective.metric);
+  const far = (x) => objective.is_distance ? Math.abs(x - objective.reference) : x;
   return {trials: m < 0 ? [] : doneTrials().filter((i) => t.metrics[m][i] !== null),
-    value: (i) => objective.is_distance ? Math.abs(t.metrics[m][i] - objective.reference) : t.metrics[m][i]};
+    value: (i) => far(t.metrics[m][i]),
+    // Repeats of a set count by their mean.
+    valueOfSet: (rows) => far(meanOf(t.metrics[m], rows))};
 }
 
 // At most `limit` of them, evenly through their order, and always those that `keep` names.
@@ -218,9 +226,11 @@ function thin(indices, limit, keep = new Set()) {
   return indices.filter((i) => chosen.has(i) || keep.has(i));
 }
 
-function trialText(i) {
-  const t = D.trials;
-  return ["Trial " + t.id[i] + ", " + t.purpose[i],
+// A trial, or the mean of a set's repeats.
+function trialText(...rows) {
+  const t = D.trials, [i] = rows;
+  return [rows.length > 1 ? "Mean of trials " + rows.map((row) => t.id[row]).join(", ")
+      : "Trial " + t.id[i] + ", " + t.purpose[i],
     ...D.parameters.map((p, k) => p.symbol + " = " + formatUnit(t.values[k][i], p.unit)),
-    ...D.metrics.map((m, k) => m.title + " = " + formatUnit(t.metrics[k][i], m.unit))];
+    ...D.metrics.map((m, k) => m.title + " = " + formatUnit(meanOf(t.metrics[k], rows), m.unit))];
 }

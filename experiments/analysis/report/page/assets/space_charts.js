@@ -13,23 +13,24 @@ function spaceChart() {
   let colorBy = scaleFactors.length > 1 ? -1 : own;
   const rowOf = new Map(t.id.map((id, i) => [id, i]));
   const kept = new Set(answered.flatMap((o) => o.trials.best.map((b) => rowOf.get(b.trials[0]))));
+  const rowsOf = (set) => set.trials.map((id) => rowOf.get(id));
   const logOf = (k, x) => D.parameters[k].log && three ? Math.log10(x) : x;
   const at = (values) => axes.map((k) => logOf(k, values[k]));
   const point = (i) => at(t.values.map((column) => column[i]));
 
   const option = (width) => {
     const o = answered[colorBy < 0 ? own : colorBy];
-    const {trials: usable, value} = valuesOf(o);
+    const {trials: usable, value, valueOfSet} = valuesOf(o);
     const shown = thin(usable, 3000, kept);
     const sorted = shown.map(value).sort((a, b) => a - b);
     // The colours end at the 90 % point: beyond it a trial is simply bad, and the legend says so.
     const low = sorted[0], high = sorted[Math.floor(.9 * (sorted.length - 1))];
     const kind = three ? "scatter3D" : "scatter";
     const size = shown.length > 1000 ? 4 : 8;
-    const extra = n === 1 ? (i) => [value(i)] : () => [];
+    const extra = n === 1 ? (rows) => [valueOfSet(rows)] : () => [];
     const trialSeries = (name, some, style, symbol = "circle") => ({type: kind, name, symbolSize: size, symbol,
       itemStyle: {opacity: .9, borderWidth: three ? .4 : .5, borderColor: paper, ...style},
-      data: some.map((i) => [...point(i), ...extra(i), value(i), i])});
+      data: some.map((i) => [...point(i), ...extra([i]), value(i), i])});
     const byScale = colorBy < 0;
     const series = byScale
       ? scaleFactors.map((factor, k) => trialSeries("scale factor " + tick(factor),
@@ -40,8 +41,8 @@ function spaceChart() {
       type: kind, name: "ten best by " + objective.title, symbolSize: 15 + 3 * k,
       itemStyle: {color: "rgba(255,255,255,0)", borderColor: palette[k % palette.length], borderWidth: 2, opacity: 1},
       data: objective.trials.best.map((b) => {
-        const i = rowOf.get(b.trials[0]);
-        return [...at(b.values), ...extra(i), b.objective, i];
+        const rows = rowsOf(b);
+        return {value: [...at(b.values), ...extra(rows), b.objective, rows[0]], rows};
       })}));
     // One parameter is marked by a line: the axis across it is of whichever objective is shown.
     if (D.headline && n === 1) {
@@ -55,11 +56,14 @@ function spaceChart() {
     const selected = Object.fromEntries(
         answered.map((objective) => ["ten best by " + objective.title, objective === o]));
     const narrow = width < 560;
+    const place = document.getElementById(idOf("space")), height = place.clientHeight || 560;  // 0 on paper
     const common = {
       legend: {...legendStyle, selected, icon: undefined,
                data: series.slice(byScale ? 0 : numTrialSeries).map((s) => ({name: s.name, icon: s.symbol || "circle"}))},
-      tooltip: {...tooltipStyle, formatter: (e) => e.data[e.data.length - 1] < 0 ? "recommended"
-        : lines(trialText(e.data[e.data.length - 1]))},
+      tooltip: {...tooltipStyle, formatter: (e) => {
+        const rows = e.data.rows || e.data.slice(-1);
+        return rows[0] < 0 ? "recommended" : lines(trialText(...rows));
+      }},
       visualMap: byScale ? undefined : {seriesIndex: 0, dimension: axes.length + (n === 1 ? 1 : 0), min: low, max: high,
         inRange: {color: [...sequence].reverse()}, calculable: false, orient: "horizontal",
         left: 0, bottom: 0, itemWidth: 12, itemHeight: narrow ? 90 : 150,
@@ -74,7 +78,8 @@ function spaceChart() {
     }
     const axis = (k) => {
       const p = D.parameters[axes[k]];
-      return {type: "value", min: logOf(axes[k], p.low), max: logOf(axes[k], p.high), name: nameOf(p),
+      return {type: "value", min: logOf(axes[k], p.low), max: logOf(axes[k], p.high),
+        name: narrow ? p.symbol : nameOf(p),  // a longer one is cut off at the edge
         nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14, lineHeight: 24},
         axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12, lineHeight: 22},
           // The first label of x would stand on that of z.
@@ -86,7 +91,7 @@ function spaceChart() {
     return {...common, xAxis3D: axis(0), yAxis3D: axis(1), zAxis3D: axis(2),
       grid3D: {boxWidth: 100, boxDepth: 100, boxHeight: 84, top: -10, bottom: 30,
         axisPointer: {show: false}, environment: "none",
-        viewControl: {projection: "orthographic", orthographicSize: narrow ? 190 : 165, alpha: 22,
+        viewControl: {projection: "orthographic", orthographicSize: Math.max(165, 200 * height / width), alpha: 22,
           beta: 38, minOrthographicSize: 60, maxOrthographicSize: 320, zoomSensitivity: 0}}};
   };
   const made = chart("space", three ? "Trials in the space of three parameters"
