@@ -28,7 +28,9 @@ void AddAddExperimentCommand(CLI::App& app) {
                    "JSON file with one entry of `experiments` (docs/experiments.md)")
       ->required();
   command->add_option("--core-time", arguments->core_time,
-                      "for the search with it, as \"10 min\"; default: as much as it has used");
+                      "for the search with it, as \"10 min\"; default: as much as it has used, or "
+                      "16 simulations of the test at the "
+                      "smallest scale factor where it has not ended");
   AddTellFlags(*command, arguments->tell);
   command->callback([arguments] {
     campaign::AddOptions options;

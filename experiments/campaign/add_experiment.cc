@@ -1,6 +1,7 @@
 #include "experiments/campaign/add_experiment.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -34,10 +35,48 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
   with.experiments = ExperimentsOf(spec);
   with.experiment.reset();
   with.experiments->push_back(experiment);
-  with.budget.simulations = 0;
-  with.budget.min_simulations = 0;
-  with.budget.wall_clock.reset();
+  with.num_added = spec.num_added.value_or(0) + 1;
   return with;
+}
+
+// What the search may spend with the test. One that has ended goes on for as much core time as it
+// has used; one that has not goes on to its own bounds, which are wider by what the test takes.
+BudgetOptions BudgetWith(const CampaignSpec& with, OpenedCampaign& opened,
+                         const AddOptions& options) {
+  constexpr int kFewest = 16;  // simulations that a test adds, where nobody says
+  const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
+  const journal::ProgressRecord progress = opened.journal.Progress();
+  CoreTime core_time(with);
+  BudgetOptions budget = with.budget;
+  // The runs of a goal count against the budget, too.
+  const double used = core_time.OfSearch(trials) + GoalCoreTime(opened.folder.root, opened.spec);
+  const double told = core_time.OfTold(trials);
+  if (SearchHasEnded(progress, budget) && told > 0) {
+    budget.simulations = budget.min_simulations = 0;
+    budget.wall_clock.reset();
+    budget.core_time = used + options.core_time.value_or(told);
+    return budget;
+  }
+  const double factor = with.coarse_graining.scale_factor;
+  const int added = static_cast<int>(with.experiments->size()) - 1;
+  const double each = core_time.OfOne(added, factor);
+  if (budget.core_time) {
+    *budget.core_time = std::max(used, *budget.core_time) +
+                        options.core_time.value_or(std::max(told, kFewest * each));
+  }
+  if (budget.simulations > 0) {
+    const double num_told =
+        static_cast<double>(std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch));
+    // The search may spend it on any of the tests.
+    double dearest = each;
+    for (int e = 0; e < added; ++e) dearest = std::max(dearest, core_time.OfOne(e, factor));
+    const double num_more = options.core_time ? std::ceil(*options.core_time / dearest)
+                                              : std::max<double>(kFewest, num_told);
+    budget.simulations = static_cast<int>(
+        std::min<double>(BudgetOptions::kMostSimulations, budget.simulations + num_more));
+  }
+  if (progress.elapsed_s >= budget.wall_clock.value_or(0)) budget.wall_clock.reset();
+  return budget;
 }
 
 // Throws where the campaign's strategy has one objective.
@@ -63,7 +102,6 @@ void RequireNew(const CampaignSpec& before, const std::string& name,
 void Check(const CampaignSpec& before, const ExperimentSpec& experiment,
            const std::filesystem::path& file) {
   CampaignSpec spec = SpecWith(before, experiment);
-  spec.budget = before.budget;
   SetDrumDiameters(spec);
   base::Problems found;
   CheckSpec(spec, found);
@@ -110,17 +148,15 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   };
   OpenedCampaign opened = OpenCampaign(folder, {}, console, check);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
-  CoreTime core_time(opened.spec);
-  spec.budget.core_time =
-      core_time.OfSearch(trials) + options.core_time.value_or(core_time.OfTold(trials));
-  // The runs of a goal count against the budget, too.
-  *spec.budget.core_time += GoalCoreTime(opened.folder.root, opened.spec);
+  spec.budget = BudgetWith(spec, opened, options);
   const TakenOver taken = TakeOverDesigns(opened.folder, trials,
                                           {.spec = spec,
                                            .index = static_cast<int>(references.size()) - 1,
                                            .reference = references.back()},
                                           *engine);
-  *spec.budget.core_time += taken.core_time;
+  // It is paid for already.
+  if (spec.budget.core_time) *spec.budget.core_time += taken.core_time;
+  if (spec.budget.simulations > 0) spec.budget.simulations += static_cast<int>(taken.trials.size());
   journal::CampaignRecord now = opened.journal.Campaign();  // by a changed spec, where it has
   now.experiments.push_back(record.experiments.back());
   now.spec_json = SpecText(spec);

@@ -69,8 +69,10 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
 }
 
 CampaignEnd Campaign::GoOn(const base::InterruptGuard& interrupt) {
-  if (!StayEnded()) NoteProgress();
-  RunFailedAgain();
+  if (!StayEnded()) {
+    NoteProgress();
+    RunFailedAgain();
+  }
   TellFinished();
   NoteFormerGoal();
   TakeUpRunning();

@@ -66,6 +66,9 @@ class Campaign {
   bool StayEnded();
   KeptProgress ProgressSoFar() const;
   void RunFailedAgain();
+  void RunFromTheBeginning(const std::vector<journal::TrialRecord>& trials,
+                           const std::string& which, const std::string& of = "");
+  void ForgetJob(const journal::TrialRecord& trial);
   void TellFinished();
   void TakeUpRunning();
   void NoteFormerEngineGone();

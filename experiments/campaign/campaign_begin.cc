@@ -4,6 +4,8 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -21,7 +23,8 @@ namespace {
 void RequireNoneQueued(const runners::SlurmOptions& options, const std::filesystem::path& folder,
                        const std::vector<runners::Job>* jobs) {
   const std::filesystem::path records = folder / "slurm";
-  if (!std::filesystem::exists(records)) return;
+  std::error_code unknown;  // in a folder that is somebody's private one, and so none of ours
+  if (!std::filesystem::exists(records, unknown)) return;
   runners::SlurmRunner former(options, folder);
   int num_queued = 0;
   try {
@@ -46,9 +49,12 @@ void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& ro
   if (spec.runner.kind != RunnerKind::kLocal) return;
   RequireNoneQueued(spec.runner.slurm, root, &jobs);
   constexpr int kDeepest = 1;  // DIR/predict/NAME
-  for (auto entry = std::filesystem::recursive_directory_iterator(root);
-       entry != std::filesystem::recursive_directory_iterator(); ++entry) {
-    if (!entry->is_directory()) continue;
+  std::error_code unreadable;
+  std::filesystem::recursive_directory_iterator entry(
+      root, std::filesystem::directory_options::skip_permission_denied, unreadable);
+  for (; entry != std::filesystem::recursive_directory_iterator(); entry.increment(unreadable)) {
+    std::error_code gone;
+    if (!entry->is_directory(gone)) continue;
     RequireNoneQueued(spec.runner.slurm, entry->path(), nullptr);
     if (entry.depth() == kDeepest || entry->path().filename() == "trials") {
       entry.disable_recursion_pending();
@@ -59,31 +65,68 @@ void RequireNoneQueued(const CampaignSpec& spec, const std::filesystem::path& ro
 }  // namespace
 
 // The set-up was wrong, and whoever resumes has mended it: none of these trials tells of its set.
+// While a search goes on a few that have failed are enough where no trial at all has succeeded.
 // Folders first: a session that ends in between does all of it again.
 void Campaign::RunFailedAgain() {
-  std::vector<journal::TrialRecord> trials = journal_.Trials();
+  const std::vector<journal::TrialRecord> trials = journal_.Trials();
+  const bool searches = stop_json_.empty();
+  const bool none_has_succeeded =
+      searches && std::ranges::none_of(trials, [](const journal::TrialRecord& trial) {
+        return trial.status == journal::TrialStatus::kOk &&
+               trial.kind != journal::TrialKind::kReused;
+      });
   const std::set<int> failing = FailingExperiments(trials);
-  std::erase_if(trials, [&](const journal::TrialRecord& trial) {
-    if (parts_.engine_is_new) return trial.finish_order == 0 || HasTold(trial);
-    return trial.status != journal::TrialStatus::kFailed || !failing.contains(trial.experiment);
-  });
-  if (trials.empty()) return;
-  const bool of_one = !parts_.engine_is_new && failing.size() == 1 && references_.size() > 1;
-  console_.Line(
-      (parts_.engine_is_new ? "with the former engine " : "all ") +
-      base::Counted(static_cast<long long>(trials.size()), "trial") +
-      (of_one ? " of \"" + record_.experiments.at(static_cast<std::size_t>(*failing.begin())).name +
-                    "\""
-              : "") +
-      (trials.back().reason.empty() ? " told nothing"
-                                    : " failed (the last: " + trials.back().reason + ")") +
-      ": run again");
+  std::vector<journal::TrialRecord> told_nothing, all_failed, tried_once;
   for (const journal::TrialRecord& trial : trials) {
-    parts_.runner->Forget(JobOf(trial));
+    const bool has_failed =
+        trial.status == journal::TrialStatus::kFailed && trial.kind != journal::TrialKind::kReused;
+    if (parts_.engine_is_new) {
+      if (trial.finish_order > 0 && !HasTold(trial)) told_nothing.push_back(trial);
+    } else if (has_failed && (none_has_succeeded || failing.contains(trial.experiment))) {
+      all_failed.push_back(trial);
+    } else if (has_failed && searches && spec_.retry_failed && trial.attempts == 1) {
+      tried_once.push_back(trial);
+    }
+  }
+  const bool of_one = !none_has_succeeded && failing.size() == 1 && references_.size() > 1;
+  RunFromTheBeginning(told_nothing, "with the former engine ");
+  RunFromTheBeginning(
+      all_failed, "all ",
+      of_one ? " of \"" + record_.experiments.at(static_cast<std::size_t>(*failing.begin())).name +
+                   "\""
+             : "");
+  RunFromTheBeginning(tried_once, "", " with one attempt");
+  // They have failed with their own seed.
+  for (journal::TrialRecord& trial : tried_once) {
+    ++trial.attempts;
+    trial.seed = planner_.SeedOf(trial);
+  }
+  if (!tried_once.empty()) journal_.Restart(tried_once);
+}
+
+// `which` and `of`: what stands before and after their number in the line that says so.
+void Campaign::RunFromTheBeginning(const std::vector<journal::TrialRecord>& trials,
+                                   const std::string& which, const std::string& of) {
+  if (trials.empty()) return;
+  const std::string& reason = trials.back().reason;
+  console_.Line(which + base::Counted(std::ssize(trials), "trial") + of +
+                (reason.empty() ? " told nothing" : " failed (the last: " + reason + ")") +
+                ": run again");
+  for (const journal::TrialRecord& trial : trials) {
+    ForgetJob(trial);
     std::filesystem::remove_all(folder_.trial(trial.id));
     ++reruns_[trial.id];
   }
   journal_.Reopen(trials);
+}
+
+// By a queue that it was once given to as well: its records outlive the trial's folder, and would
+// let it seem to wait there.
+void Campaign::ForgetJob(const journal::TrialRecord& trial) {
+  parts_.runner->Forget(JobOf(trial));
+  if (spec_.runner.kind != RunnerKind::kLocal) return;
+  if (!std::filesystem::exists(folder_.root / "slurm")) return;
+  runners::SlurmRunner(spec_.runner.slurm, folder_.root).Forget(JobOf(trial));
 }
 
 bool Campaign::RunAgain(journal::TrialRecord& trial, const std::string& reason) {

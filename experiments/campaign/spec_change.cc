@@ -1,6 +1,11 @@
 #include "experiments/campaign/spec_change.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -36,28 +41,29 @@ void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root
   change.words = "its templates lie in " + moved.string() + " now";
 }
 
-// What the campaign was given after it began, and the spec's file cannot know of: further tests,
-// and a budget, unless the file's own has been changed since.
+// How many tests the campaign began with: its file need have no others.
+std::size_t NumBegunWith(const nlohmann::json& begun_with, const CampaignSpec& going) {
+  const std::size_t num_listed =
+      begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
+  const auto num_added = static_cast<std::size_t>(going.num_added.value_or(0));
+  return std::min(num_listed, going.experiments->size() - num_added);
+}
+
+// What the campaign was given after it began, and the spec's file may not know of: further tests,
+// of which it may list the first ones, and a budget, unless the file's own has been changed since.
 void KeepWhatWasGiven(const nlohmann::json& begun_with, const nlohmann::json& written,
                       const CampaignSpec& going, CampaignSpec& read) {
   const auto budget = [](const nlohmann::json& spec) {
     return spec.value("budget", nlohmann::json());
   };
   if (budget(begun_with) == budget(written)) read.budget = going.budget;
+  read.num_added = going.num_added;
   if (!going.experiments) return;
   const std::vector<ExperimentSpec>& all = *going.experiments;
-  const std::size_t num_begun =
-      begun_with.contains("experiments") ? begun_with.at("experiments").size() : 1;
-  if (num_begun >= all.size()) return;
-  // A file that has been kept in step has them all; those it began with are stored complete.
-  const std::vector<ExperimentSpec> complete = ExperimentsOf(read);
-  const bool is_in_step = read.experiments && complete.size() == all.size();
-  if (!is_in_step && complete.size() != num_begun) return;
-  const auto begun = static_cast<std::ptrdiff_t>(num_begun);
-  std::vector<ExperimentSpec> kept(complete.begin(), complete.begin() + begun);
-  const std::vector<ExperimentSpec>& added = is_in_step ? *read.experiments : all;
-  kept.insert(kept.end(), added.begin() + begun, added.end());
-  read.experiments = std::move(kept);
+  std::vector<ExperimentSpec> listed = ExperimentsOf(read);
+  if (listed.size() < NumBegunWith(begun_with, going) || listed.size() >= all.size()) return;
+  listed.insert(listed.end(), all.begin() + std::ssize(listed), all.end());
+  read.experiments = std::move(listed);
   read.experiment.reset();
 }
 
@@ -76,6 +82,9 @@ void KeepDrumFills(const nlohmann::json& written, const CampaignSpec& begun, Cam
   }
 }
 
+// Not in somebody's private folder, say.
+bool IsReadable(const fs::path& path) { return ::access(path.c_str(), R_OK) == 0; }
+
 // No trial has succeeded with the one before.
 void NoteMendedEngine(SpecChange& change) {
   change.engine_is_new = change.asks_more = true;
@@ -92,7 +101,13 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   const fs::path path = named ? options.spec : fs::path(record.spec_path);
   SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
   if (named) change.path = fs::absolute(path).lexically_normal().string();
-  if (named || fs::exists(path)) change.text = base::ReadFile(path);
+  if (named || IsReadable(path)) {
+    change.text = base::ReadFile(path);
+  } else {
+    change.note = path.string() + ": is not there or cannot be read; it goes on by the spec in " +
+                  (root / "campaign.json").string() +
+                  ", and `talus resume DIR --spec FILE` by another file";
+  }
   if (change.text == record.spec_text) {
     change.spec = ParseSpecText(record.spec_json);
     FollowTemplates(record, root, options.spec, change);
@@ -111,7 +126,8 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record,
   KeepAddedParameters(begun, change.spec);
   KeepDrumFills(file.root, begun, change.spec);
   KeepWhatWasGiven(begun_with, file.root, begun, change.spec);
-  auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
+  auto forbidden =
+      ForbiddenChanges(record.spec_json, SpecText(change.spec), fs::absolute(path).parent_path());
   const bool engine_is_new = AllowMendedEngine(trials, forbidden);
   if (!forbidden.empty()) {
     std::string message = path.string() +
@@ -141,7 +157,7 @@ double UsualCoreTime(const CampaignSpec& spec, const std::vector<journal::TrialR
 }
 
 // A search that has ended is counted in simulations from now on, whatever ended it. One that has
-// not keeps its budget, larger by what so many take.
+// not keeps its budget, larger by what so many take, and its rule, which waits for so many more.
 void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
   const std::vector<journal::TrialRecord> trials = journal.Trials();
   const auto num_search =
@@ -149,9 +165,8 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   const auto num_told =
       static_cast<int>(std::ranges::count_if(trials, &journal::TrialRecord::IsOfSearch));
   const journal::ProgressRecord progress = journal.Progress();
-  const bool ended =
-      progress.state == journal::CampaignState::kFinished || !progress.stop_json.empty();
   BudgetOptions& budget = change.spec.budget;
+  const bool ended = SearchHasEnded(progress, budget);
   const int from = ended ? num_search : std::max(num_search, budget.simulations);
   if (num_more > BudgetOptions::kMostSimulations - from) {
     throw base::ConfigError("--add-simulations: " + std::to_string(num_more) +
@@ -159,11 +174,18 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
                             std::to_string(BudgetOptions::kMostSimulations) + " simulations");
   }
   if (ended) budget.core_time.reset();
-  if (budget.core_time) *budget.core_time += num_more * UsualCoreTime(change.spec, trials);
+  if (budget.core_time) {
+    *budget.core_time += num_more * UsualCoreTime(change.spec, trials);
+    // Where none has succeeded all are run again, and have taken their time for nothing.
+    const bool all_again = std::ranges::none_of(trials, [](const journal::TrialRecord& trial) {
+      return trial.status == journal::TrialStatus::kOk;
+    });
+    if (all_again) *budget.core_time += CoreTime(change.spec).OfSearch(trials);
+  }
   if (!budget.core_time || budget.simulations > 0) budget.simulations = from + num_more;
   // The least is counted with what was reused.
-  budget.min_simulations =
-      std::min(BudgetOptions::kMostSimulations, num_told - num_search + from + num_more);
+  const int least = std::min(BudgetOptions::kMostSimulations, num_told + num_more);
+  budget.min_simulations = ended ? least : std::max(budget.min_simulations, least);
   if (ended || progress.elapsed_s >= budget.wall_clock.value_or(0)) budget.wall_clock.reset();
   if (!change.asks_more) change.event = "extend";
   change.asks_more = true;
@@ -181,6 +203,13 @@ void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
 }
 
 }  // namespace
+
+bool SearchHasEnded(const journal::ProgressRecord& progress, const BudgetOptions& budget) {
+  const bool ran_out =
+      progress.elapsed_s >= budget.wall_clock.value_or(std::numeric_limits<double>::infinity());
+  return !progress.stop_json.empty() || (progress.state == journal::CampaignState::kFinished &&
+                                         (ran_out || !progress.result_json.empty()));
+}
 
 SpecChange ChangeOf(journal::Journal& journal, const std::filesystem::path& root,
                     const ResumeOptions& options) {

@@ -27,9 +27,14 @@ struct SpecChange {
   std::string text;    // as the user wrote it
   std::string event;   // its kind; empty when nothing changes
   std::string words;
+  std::string note{};          // where another spec is read than the usual one
   bool asks_more = false;      // a search that has ended goes on
   bool engine_is_new = false;  // a mended one, with which no trial has been run
 };
+
+// Whether the search has ended for good. One that gave up, as nothing worked, has not: it goes on
+// once that is mended.
+bool SearchHasEnded(const journal::ProgressRecord& progress, const BudgetOptions& budget);
 
 // Throws ConfigError that names what has changed in the spec where that is not allowed. Nothing is
 // written.

@@ -261,6 +261,7 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
   const SpecChange change = ChangeOf(journal, folder.root, options);
+  if (!change.note.empty()) console.Line(change.note);
   CampaignSpec spec = change.spec;
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have

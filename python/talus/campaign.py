@@ -86,6 +86,7 @@ def _taken_again(spec):
     if "scale_factors" in grains:
         grains.pop("scale_factor", None)
     spec.get("engine", {}).pop("templates_hash", None)  # filled in when a campaign begins
+    spec.pop("num_added", None)  # when a test is added
     for parameter in spec.get("parameters", {}).values():
         if isinstance(parameter, dict):
             parameter.pop("added_at", None)  # and when a parameter is added

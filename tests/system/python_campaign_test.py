@@ -164,7 +164,7 @@ def check_spec(campaign):
     again["strategy"] = {"kind": "auto"}
     root = campaign.folder.parent
     second = talus.calibrate(again, out=root / "second", progress=False)
-    filled_in = {"experiment": {}, "engine": {"kind": "command", "templates_hash": "1"},
+    filled_in = {"experiment": {}, "num_added": 1, "engine": {"kind": "command", "templates_hash": "1"},
                  "parameters": {"restitution": {"min": 0.3, "max": 0.9, "added_at": 0.5}}}
     assert talus.campaign._taken_again(filled_in) == {
         "experiment": {}, "engine": {"kind": "command"}, "parameters": {"restitution": {"min": 0.3, "max": 0.9}}}

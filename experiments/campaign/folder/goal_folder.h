@@ -49,8 +49,8 @@ std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campai
 
 // Core time of every run in DIR/goal [s], whatever goal and parameters it was made for.
 double GoalCoreTime(const std::filesystem::path& campaign);
-// The same as the last look at this spec's goal knows it, where that is more: an engine that went on
-// from a checkpoint took longer than its last process.
+// The same as the last look at this spec's goal knows it, where that is more: an engine that went
+// on from a checkpoint took longer than its last process.
 double GoalCoreTime(const std::filesystem::path& campaign, const CampaignSpec& spec);
 // The same of one look.
 double LookCoreTime(const std::filesystem::path& look);

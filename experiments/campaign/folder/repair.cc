@@ -1,7 +1,9 @@
 #include "experiments/campaign/folder/repair.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -76,7 +78,15 @@ journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
   return record;
 }
 
-std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
+// One of another campaign, or of before a parameter was added, does not.
+bool IsOfCampaign(const journal::TrialRecord& trial, const journal::CampaignRecord& campaign) {
+  const std::size_t num_parameters = campaign.parameters.size();
+  return trial.unit.size() == num_parameters && trial.native.size() == num_parameters &&
+         trial.experiment >= 0 && trial.experiment < std::ssize(campaign.experiments);
+}
+
+std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder,
+                                             const journal::CampaignRecord& campaign) {
   std::vector<journal::TrialRecord> trials;
   if (!std::filesystem::exists(folder.root / "trials")) return trials;
   for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
@@ -87,7 +97,8 @@ std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
     const auto size = std::filesystem::file_size(file, absent);
     if (absent || size == 0) continue;
     try {
-      trials.push_back(ReadRecord<journal::TrialRecord>(file));
+      auto trial = ReadRecord<journal::TrialRecord>(file);
+      if (IsOfCampaign(trial, campaign)) trials.push_back(std::move(trial));
     } catch (const base::Error&) {  // damaged: as if it were not there, it is run again
     }
   }
@@ -139,7 +150,7 @@ void KeepProgress(const CampaignFolder& folder, const KeptProgress& progress) {
 
 journal::Journal RebuildJournal(const CampaignFolder& folder) {
   const journal::CampaignRecord record = KeptCampaign(folder);
-  std::vector<journal::TrialRecord> trials = KeptTrials(folder);
+  std::vector<journal::TrialRecord> trials = KeptTrials(folder, record);
   // After a gap nothing can be what an unbroken run would have made.
   std::size_t whole = 0;
   while (whole < trials.size() && trials[whole].id == static_cast<std::int64_t>(whole) + 1) ++whole;

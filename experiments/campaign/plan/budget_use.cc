@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text/counted.h"
 #include "base/text/duration_text.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/cores.h"
@@ -108,15 +109,14 @@ double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace,
   return std::min(rounds, dearest + (sum - dearest) / pace.at_a_time);
 }
 
-// Wall time of what follows the answer by itself: further tests and sensitivity [s].
+}  // namespace
+
 double AfterwardsLeft(const CampaignSpec& spec, double core_time, int at_a_time) {
   const bool advises =
       spec.engine.kind == EngineKind::kTalus && spec.runner.kind == RunnerKind::kLocal;
   const double share = (advises ? spec.next.share : 0) + spec.budget.sensitivity_share;
   return share * core_time / at_a_time;
 }
-
-}  // namespace
 
 BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials,
                 double elapsed, int at_a_time, double goal_time) {
@@ -154,9 +154,9 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
 }
 
 std::string UseText(const BudgetOptions& budget, const BudgetUse& use, double elapsed) {
-  std::string text = std::to_string(use.num_search) +
-                     (budget.simulations > 0 ? " of " + std::to_string(budget.simulations) : "") +
-                     " simulations";
+  std::string text = budget.simulations > 0 ? std::to_string(use.num_search) + " of " +
+                                                  base::Counted(budget.simulations, "simulation")
+                                            : base::Counted(use.num_search, "simulation");
   if (budget.core_time) {
     text += ", " + base::DurationText(use.core_seconds) + " of " +
             base::DurationText(*budget.core_time) + " core time";

@@ -25,6 +25,10 @@ struct BudgetUse {
 BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials,
                 double elapsed, int at_a_time, double goal_time = 0);
 
+// Wall time of what follows the answer by itself, at most: further tests and sensitivity [s].
+// `core_time`: of the search, the goal's runs and the confirmation [s].
+double AfterwardsLeft(const CampaignSpec& spec, double core_time, int at_a_time);
+
 // "21 of 60 simulations, 12 s of 25 s core time, 1 min of 10 min"
 std::string UseText(const BudgetOptions& budget, const BudgetUse& use, double elapsed);
 

@@ -23,13 +23,6 @@
 namespace talus::campaign {
 namespace {
 
-using nlohmann::ordered_json;
-
-// Keys that a running campaign may be given anew: what to spend and where, not what to find.
-constexpr std::string_view kEndSearch[] = {"budget", "goal", "confirm", "retry_failed"};
-constexpr std::string_view kOfRunning[] = {"name",    "next",           "workers",
-                                           "threads", "trial_time_cap", "runner"};
-
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
 
@@ -334,43 +327,6 @@ rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int ex
   rig_case.frame = imaging::Frame{
       .pixel_size = 1e-4, .baseline = 1, .plate_diameter = rigs::EntryOf(rig_case).width(rig_case)};
   return rig_case;
-}
-
-std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
-                                               const std::string& new_text) {
-  // Read and written again, as keys may have come with their defaults since it was written.
-  ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
-  ordered_json new_spec = ordered_json::parse(new_text);
-  for (ordered_json* spec : {&old_spec, &new_spec}) {
-    for (const std::string_view key : kEndSearch) spec->erase(std::string(key));
-    for (const std::string_view key : kOfRunning) spec->erase(std::string(key));
-    // Templates may lie elsewhere where they are the same: their hash says so.
-    if (spec->contains("engine")) spec->at("engine").erase("templates");
-  }
-  return base::JsonChanges(old_spec, new_spec);
-}
-
-bool AsksMore(const std::string& old_text, const std::string& new_text) {
-  ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
-  ordered_json new_spec = ordered_json::parse(new_text);
-  for (ordered_json* spec : {&old_spec, &new_spec}) {
-    if (spec->contains("budget")) spec->at("budget").erase("sensitivity_share");
-    if (!spec->contains("goal")) continue;
-    // The project may lie elsewhere now.
-    ordered_json& file = spec->at("goal").at("case");
-    file = std::filesystem::path(file.get<std::string>()).filename().string();
-  }
-  return std::ranges::any_of(kEndSearch, [&](std::string_view key) {
-    return old_spec.value(std::string(key), ordered_json()) !=
-           new_spec.value(std::string(key), ordered_json());
-  });
-}
-
-std::string ChangeText(const base::JsonChange& change) {
-  if (change.path == "engine.templates_hash") {
-    return "engine.templates: holds other files than it did then";
-  }
-  return change.path + ": " + change.before + " → " + change.after;
 }
 
 }  // namespace talus::campaign

@@ -39,7 +39,10 @@ struct CampaignSpec {
   std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
   std::optional<std::vector<ExperimentSpec>> experiments{};
   std::optional<std::string> hold_out{};  // name of one that the answer is not made from
-  int num_views = 16;                     // of a simulated profile, >= 1
+  // So many of `experiments`, the last, were added after the campaign had begun: its file need not
+  // have them.
+  std::optional<int> num_added{};
+  int num_views = 16;  // of a simulated profile, >= 1
   std::optional<ParameterRanges> parameters{};
   std::vector<optimizer::LinearConstraint> constraints{};
   journal::Objective objective = journal::Objective::kSad;
@@ -85,6 +88,8 @@ struct CampaignSpec {
                 "to be met by one parameter set"});
     visit("hold_out", self.hold_out,
           {.doc = "name of one of the experiments: the answer is made without it and predicts it"});
+    visit("num_added", self.num_added,
+          {.doc = "filled in by `talus add-experiment`: so many of the experiments it has added"});
     visit("num_views", self.num_views, {.doc = "of a simulated profile over 180 deg, >= 1"});
     visit("parameters", self.parameters,
           {.doc = "what is searched; default: sliding and rolling friction, surface energy"});
@@ -177,9 +182,10 @@ rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int ex
                   double scale_factor);
 
 // What differs between two specs (as SpecText writes them); what a running campaign may change is
-// left out.
+// left out, and so is the place of what has moved together with `folder`, that of the new spec.
 std::vector<base::JsonChange> ForbiddenChanges(const std::string& old_text,
-                                               const std::string& new_text);
+                                               const std::string& new_text,
+                                               const std::filesystem::path& folder = {});
 
 // Whether the new one may end a search elsewhere than the old: where it differs in what is to be
 // found or spent, and not only in how trials are run.

@@ -29,9 +29,10 @@ void RefuseRangesOfFixed(const json& root, base::Problems& problems) {
   }
 }
 
-// What is filled in when a campaign begins or a parameter is added to it.
+// What is filled in when a campaign begins, or a test or a parameter is added to it.
 void RefuseOwnKeys(const json& root, base::Problems& problems) {
   constexpr const char* kOurs = "is filled in by talus: leave it out";
+  problems.Require(!root.contains("num_added"), "num_added", kOurs);
   const auto engine = root.find("engine");
   if (engine != root.end() && engine->is_object()) {
     problems.Require(!engine->contains("templates_hash"), "engine.templates_hash", kOurs);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -10,19 +9,14 @@
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/problems.h"
-#include "base/sphere.h"
+#include "base/text/joined.h"
 #include "base/text/key_text.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
-#include "experiments/rigs/case/case_warnings.h"
-#include "experiments/rigs/options/drum_options.h"
+#include "experiments/campaign/spec/draft_plan.h"
 
 namespace talus::campaign {
 namespace {
-
-// The heap's shape needs so many grains across the plate; twice as coarse ones find the region.
-constexpr double kFineAcross = rigs::kAdvisedAcross;
-constexpr double kCoarseAcross = 12.5;
 
 constexpr const char* kHeapName = "heap";  // the photographed one's
 
@@ -43,16 +37,6 @@ std::string Quoted(const std::string& text) { return base::JsonText(nlohmann::js
 // 0.9 as it is, "90 %" as the text that it is.
 std::string NumberOrText(const std::string& text) {
   return nlohmann::json::parse(text, nullptr, false).is_number() ? text : Quoted(text);
-}
-
-// Halves are fine enough a step.
-double Rounded(double factor) { return std::max(1.0, std::floor(2 * factor) / 2); }
-
-std::string ScaleFactors(double grains_across) {
-  const double fine = Rounded(grains_across / kFineAcross);
-  const double coarse = Rounded(grains_across / kCoarseAcross);
-  if (coarse <= fine) return "[" + base::ShortNumber(fine) + "]";
-  return "[" + base::ShortNumber(coarse) + ", " + base::ShortNumber(fine) + "]";
 }
 
 std::string MissingViews(const SpecAnswers& answers) {
@@ -175,25 +159,20 @@ std::string Searched(const SpecAnswers& answers, const Cohesion& cohesion) {
   return text + Nuisances(answers) + "\n  },\n";
 }
 
-struct Lengths {
-  double plate = 0;  // diameter [m]; 0 where none is given
-  double grain = 0;  // median diameter [m]
-};
-
-Lengths LengthsOf(const SpecAnswers& answers) {
+// The median diameter of the grains [m]. Throws ConfigError with every quantity that cannot be.
+double CheckedGrain(const SpecAnswers& answers) {
   using base::Dimension;
   base::Problems problems;
-  Lengths lengths;
   const auto read_device = [&](const std::string& flag, const std::string& text, Dimension d) {
-    const bool must_be = answers.HasPhotographs();
-    return must_be || !text.empty() ? Read(flag, text, d, problems) : 0;
+    if (answers.HasPhotographs() || !text.empty()) Read(flag, text, d, problems);
   };
-  lengths.plate = read_device("--plate-diameter", answers.plate_diameter, Dimension::kLength);
+  read_device("--plate-diameter", answers.plate_diameter, Dimension::kLength);
   read_device("--tube-diameter", answers.tube_diameter, Dimension::kLength);
   read_device("--lift-velocity", answers.lift_velocity, Dimension::kVelocity);
   Read("--mass", answers.mass, Dimension::kMass, problems);
   Read("--density", answers.density, Dimension::kDensity, problems);
-  lengths.grain = Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
+  const double grain =
+      Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
   if (!answers.restitution.empty()) {
     const double e = Read("--restitution", answers.restitution, Dimension::kNone, problems);
     problems.Require(e <= 1, "--restitution", e, "must be in (0, 1]");
@@ -202,7 +181,7 @@ Lengths LengthsOf(const SpecAnswers& answers) {
     Read("--rolling-damping", answers.rolling_damping, Dimension::kNone, problems);
   }
   problems.ThrowIfAny();
-  return lengths;
+  return grain;
 }
 
 std::string ScaleOf(const SpecAnswers& answers) {
@@ -296,90 +275,49 @@ std::string Device(const SpecAnswers& answers) {
          "\n  },\n";
 }
 
-// What is filled into the test [kg]: a mass of its own, what its drum's fill makes, or the usual.
-double MassInto(const DraftTest& test, double density, double usual) {
-  using base::Dimension, base::ParseQuantity;
-  if (const std::string own = test.Answer("mass"); !own.empty()) {
-    return ParseQuantity(own, Dimension::kMass);
-  }
-  const std::string fill = test.Answer("fill");
-  if (fill.empty()) return usual;
-  rigs::DrumOptions drum;
-  const auto take = [&](const char* key, double& length) {
-    const std::string answer = test.Answer(key);
-    if (!answer.empty()) length = ParseQuantity(answer, Dimension::kLength);
-  };
-  take("diameter", drum.diameter);
-  take("width", drum.width);
-  drum.fill = ParseQuantity(fill, Dimension::kNone);
-  return drum.GrainVolume() * density;
+std::string CoarseGraining(const SpecAnswers& answers, const DraftPlan& plan) {
+  return std::string("  // Grains so many times larger than real") +
+         (answers.HasPhotographs() ? ". The last decides and should leave 30 across the plate"
+                                   : ": the cost falls with the fourth power") +
+         (plan.is_held ? ".\n  // Larger ones would not pass an opening of a test, or not fit into "
+                         "its vessel.\n"
+                       : ".\n") +
+         "  \"coarse_graining\": {\"scale_factors\": [" +
+         base::Joined(plan.scale_factors, ", ",
+                      [](double factor) { return base::ShortNumber(factor); }) +
+         "]},\n";
 }
 
-// The smallest plate that a heap stands on [m], the photographed one's and those of lifted tubes;
-// infinite without any.
-double SmallestPlate(const SpecAnswers& answers, const Lengths& lengths) {
-  constexpr const char* kKey = "plate_diameter";
-  double smallest =
-      answers.HasPhotographs() ? lengths.plate : std::numeric_limits<double>::infinity();
-  for (const DraftTest& test : answers.tests) {
-    if (test.kind != rigs::RigKind::kLiftedTube) continue;
-    std::string plate = test.Answer(kKey);
-    if (plate.empty()) {
-      const std::vector<TestQuestion> questions = QuestionsOf(test.kind, answers);
-      plate = std::ranges::find(questions, kKey, &TestQuestion::key)->usual;
-    }
-    smallest = std::min(smallest, base::ParseQuantity(plate, base::Dimension::kLength));
-  }
-  return smallest;
+std::string Budget(const DraftPlan& plan) {
+  return "  // at most; add \"core_time\": \"4 h\" for an evening\n"
+         "  \"budget\": {\"simulations\": " +
+         std::to_string(plan.simulations) + "},\n";
 }
 
-// So coarse that the largest filling is of some ten thousand grains, which a core simulates in
-// seconds: numbers have no outline that single grains would show in, but for the heap of a lifted
-// tube.
-std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths) {
-  constexpr double kGrains = 1e4;
-  const double usual = base::ParseQuantity(answers.mass, base::Dimension::kMass);
-  const double density = base::ParseQuantity(answers.density, base::Dimension::kDensity);
-  double mass = 0;
-  for (const DraftTest& test : answers.tests) mass = std::max(mass, MassInto(test, density, usual));
-  const double one = density * base::SphereVolume(lengths.grain / 2);
-  const double coarsest = SmallestPlate(answers, lengths) / lengths.grain / kCoarseAcross;
-  return base::ShortNumber(Rounded(std::min(std::cbrt(mass / one / kGrains), coarsest)));
-}
-
-std::string CoarseGraining(const SpecAnswers& answers, const Lengths& lengths) {
-  if (!answers.HasPhotographs()) {
-    return "  // Grains so many times larger than real: the cost falls with the fourth power.\n"
-           "  \"coarse_graining\": {\"scale_factors\": [" +
-           FactorForNumbers(answers, lengths) + "]},\n";
-  }
-  return "  // Grains so many times larger than real. The last decides and should leave 30 across "
-         "the plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(SmallestPlate(answers, lengths) / lengths.grain) + "},\n";
-}
-
-}  // namespace
-
-std::string DraftSpec(const SpecAnswers& answers) {
-  const Lengths lengths = LengthsOf(answers);
-  const Cohesion cohesion = CohesionOf(lengths.grain, answers.density);
-  if (!answers.HasPhotographs() && answers.tests.empty()) {
-    throw base::ConfigError(
-        "there is nothing to calibrate on: give photographs of a heap, or what a test has "
-        "measured with --test");
-  }
+std::string TextWith(const DraftPlan& plan, const SpecAnswers& answers, const Cohesion& cohesion) {
   const std::string experiments = Experiments(answers);  // first: it says where an answer is wrong
   return "// " + answers.name +
          ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
          "{\n  \"name\": " +
          Quoted(answers.name) + ",\n" + experiments + Powder(answers) + Device(answers) +
-         Models(answers.cohesive, cohesion) + CoarseGraining(answers, lengths) +
+         Models(answers.cohesive, cohesion) + CoarseGraining(answers, plan) +
          Searched(answers, cohesion) +
-         (answers.HasPhotographs() ? "  \"objective\": \"sad\",\n" : "") +
-         "  // at most; add \"core_time\": \"4 h\" for an evening\n"
-         "  \"budget\": {\"simulations\": 60},\n"
+         (answers.HasPhotographs() ? "  \"objective\": \"sad\",\n" : "") + Budget(plan) +
          "  \"confirm\": {\"candidates\": 1, \"replicates\": 3},\n  \"seed\": 1\n}\n";
+}
+
+}  // namespace
+
+std::string DraftSpec(const SpecAnswers& answers) {
+  const double grain = CheckedGrain(answers);
+  const Cohesion cohesion = CohesionOf(grain, answers.density);
+  if (!answers.HasPhotographs() && answers.tests.empty()) {
+    throw base::ConfigError(
+        "there is nothing to calibrate on: give photographs of a heap, or what a test has "
+        "measured with --test");
+  }
+  return TextWith(PlanOf(TextWith({}, answers, cohesion)), answers, cohesion);
 }
 
 }  // namespace talus::campaign

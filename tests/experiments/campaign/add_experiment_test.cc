@@ -132,6 +132,34 @@ TEST_F(AddExperimentTest, ASpecThatIsChangedLaterLeavesItThere) {
   const CampaignSpec in_step = OpenCampaign(folder, {}, console).spec;
   EXPECT_EQ(ExperimentsOf(in_step).size(), 2u);
   EXPECT_EQ(in_step.workers, 3);
+  // From then on no edit of it was taken, nor the first list.
+  both["budget"] = {{"simulations", 50}};
+  std::ofstream(file) << both.dump(1);
+  EXPECT_EQ(OpenCampaign(folder, {}, console).spec.budget.simulations, 50);
+  change(R"({"simulations": 40})", R"({"simulations": 60})");
+  const CampaignSpec first = OpenCampaign(folder, {}, console).spec;
+  EXPECT_EQ(ExperimentsOf(first).size(), 2u);
+  EXPECT_EQ(first.budget.simulations, 60);
+  both["experiments"][1]["device"]["lift_velocity"] = "30 cm/s";
+  std::ofstream(file) << both.dump(1);
+  EXPECT_THAT(ErrorIn([&] { OpenCampaign(folder, {}, console); }),
+              HasSubstr("experiments[1].device.lift_velocity: "));
+}
+
+// What was left of its budget was thrown away, and one without a trial had a budget of 0 s.
+TEST_F(AddExperimentTest, ACampaignThatHasNotEndedKeepsItsBounds) {
+  const fs::path folder = Begin(R"(, "workers": 1,
+      "budget": {"simulations": 60, "min_simulations": 60, "wall_clock": "1 h"})");
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")));
+  const BudgetOptions counted = LoadSpec(folder).budget;
+  EXPECT_EQ(counted.simulations, 76);
+  EXPECT_EQ(counted.min_simulations, 60);
+  EXPECT_EQ(counted.wall_clock, 3600);
+  EXPECT_FALSE(counted.core_time);
+  const fs::path timed = Begin(R"(, "workers": 1, "budget": {"core_time": "1 h"})", "timed");
+  Add(timed, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 600});
+  EXPECT_EQ(LoadSpec(timed).budget.core_time, 4200);
+  EXPECT_EQ(LoadSpec(timed).budget.simulations, 0);
 }
 
 // A trial that still runs when the budget is used counts by an estimate; where it takes less, the

@@ -84,6 +84,16 @@ TEST_F(AddedParameters, OutliveAnEditedSpecAndALostJournal) {
   EXPECT_EQ(trials.back().native.size(), 3u);
 }
 
+// Its own rule was switched off for all that was left of the budget.
+TEST_F(AddedParameters, LetASearchThatHasNotEndedEndByItsRule) {
+  const auto folder = Begin(kHeaps);
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  const BudgetOptions budget =
+      OpenCampaign(folder, Search("restitution=0.3..0.95"), console).spec.budget;
+  EXPECT_EQ(budget.simulations, 36);
+  EXPECT_EQ(budget.min_simulations, 16);
+}
+
 TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
   const auto folder = Finished(kHeaps);
   const std::string table = TrialTable(folder);

@@ -56,6 +56,8 @@ TEST(BudgetUse, CoreTimeIsLeftAtThePaceSoFar) {
   EXPECT_DOUBLE_EQ(use.core_seconds, 200);
   EXPECT_DOUBLE_EQ(use.seconds_left.value(), 150 + 20);
   EXPECT_EQ(UseText(spec.budget, use, 100), "22 simulations, 3 min of 8 min core time");
+  EXPECT_EQ(UseText({.simulations = 1}, {.num_search = 1}, 100), "1 of 1 simulation");
+  EXPECT_EQ(UseText({.simulations = 0}, {.num_search = 1}, 100), "1 simulation");
 }
 
 // Taken over from another campaign, on a faster machine it may be, or found after a kill, when

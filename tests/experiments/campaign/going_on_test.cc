@@ -170,6 +170,37 @@ TEST_F(GoingOnTest, AnotherSpecThatIsNamedOnceIsReadFromThenOn) {
   EXPECT_EQ(record.spec_path, other);
 }
 
+// Nothing of it could be changed any more: its map lay elsewhere.
+TEST_F(GoingOnTest, AProjectThatWasMovedTakesAChangedSpec) {
+  const fs::path former = scratch_.path() / "former", now = scratch_.path() / "now";
+  BeginCampaign(WriteFakeSpec(former, kSmall), former / "run");
+  fs::rename(former, now);
+  std::string text = base::ReadFile(now / "spec.json");
+  text.replace(text.find("\"simulations\": 10"), 17, "\"simulations\": 11");
+  std::ofstream(now / "spec.json") << text;
+  Console console(now / "campaign.log", Console::Output::kQuiet);
+  const ResumeOptions options{.spec = now / "spec.json"};
+  EXPECT_EQ(OpenCampaign(now / "run", options, console).spec.budget.simulations, 11);
+  fs::rename(now / "map.png", now / "other.png");
+  text.replace(text.find("map.png"), 7, "other.png");
+  std::ofstream(now / "spec.json") << text;
+  EXPECT_THAT(ErrorIn([&] { OpenCampaign(now / "run", options, console); }),
+              HasSubstr("experiment.map: "));
+}
+
+// A folder that cannot be looked into, as somebody's private one, ended each of them.
+TEST_F(GoingOnTest, WhatCannotBeLookedAtIsNotThere) {
+  const fs::path folder = Begin(kSmall);
+  const fs::path input = scratch_.path() / "run_in";
+  fs::remove_all(input);
+  fs::create_symlink(input, input);  // leads nowhere, also where tests are run by root
+  fs::create_directories(folder / "mine");
+  fs::create_symlink(folder / "mine/slurm", folder / "mine/slurm");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_THAT(base::ReadFile(folder / "campaign.log"),
+              HasSubstr("spec.json: is not there or cannot be read; it goes on by the spec in "));
+}
+
 // A comment in the spec's file took the answer away and searched on.
 TEST_F(GoingOnTest, OnlyWhatTheSearchDependsOnOpensOneThatHasEnded) {
   const fs::path folder = Begin(kSmall);
@@ -265,6 +296,19 @@ TEST_F(GoingOnTest, ADamagedTrialIsRunAgainByAJournalThatIsMadeAnew) {
   const fs::path folder = Finished(kSmall);
   const std::string table = TrialTable(folder);
   std::ofstream(folder / "trials/0002/trial.json", std::ios::app) << "x";
+  fs::remove(journal::JournalPath(folder));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(folder), table);
+}
+
+// A coordinate too many ended it with "FOREIGN KEY constraint failed", beside an empty journal.
+TEST_F(GoingOnTest, ATrialOfOtherParametersIsRunAgainByAJournalThatIsMadeAnew) {
+  const fs::path folder = Finished(kSmall);
+  const std::string table = TrialTable(folder);
+  journal::TrialRecord other = Trials(folder).at(1);
+  other.unit.push_back(0.5);
+  other.native.push_back(0.5);
+  KeepTrial(CampaignFolder{folder}, other);
   fs::remove(journal::JournalPath(folder));
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(folder), table);

@@ -15,6 +15,7 @@
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/spec/spec_draft.h"
 #include "experiments/campaign/status.h"
 #include "experiments/rigs/load_case.h"
 #include "tests/error_in.h"
@@ -235,6 +236,44 @@ TEST_F(NumbersOnly, ANumberThatNoTrialDefinesEndsTheSearchWithWords) {
   EXPECT_EQ(answer.stop.kind, StopKind::kUndefined);
   EXPECT_THAT(answer.stop.Text(),
               HasSubstr("none of the first 8 trials defines \"tapped_density_kg_per_m3\""));
+}
+
+// What `talus init` writes, read as any campaign.
+CampaignSpec Drafted(const std::string& mass, const std::string& grain,
+                     const std::vector<std::string>& tests) {
+  SpecAnswers answers;
+  answers.name = "powder";
+  answers.mass = mass;
+  answers.density = "2500 kg/m^3";
+  answers.grain_diameter = grain;
+  for (const std::string& test : tests) answers.tests.push_back(ParseDraftTest(test));
+  return ReadCampaignSpec(base::ParseJson(DraftSpec(answers), "/folder/campaign.json"));
+}
+
+// 50 g alone would be made of grains of 1.6 mm, and refused at an orifice of 1.5 mm.
+TEST(DraftedSpec, SixGrainsFitAcrossAnOrifice) {
+  const CampaignSpec spec =
+      Drafted("50 g", "0.1 mm", {"orifice_flow:orifice=1.5mm,discharge_rate=0.5g/s±0.1g/s"});
+  EXPECT_EQ(spec.coarse_graining.Levels(), std::vector<double>{2.5});
+}
+
+// Each was accepted alone.
+TEST(DraftedSpec, ALargeTestGoesWithASmallOne) {
+  const std::string box = "tilting_box:length=60mm,width=40mm,angle=30deg";
+  const std::string layer = "spreading:width=8mm,mass=0.1g,coverage=0.95±0.02";
+  EXPECT_EQ(Drafted("500 g", "0.1 mm", {box}).coarse_graining.Levels().front(), 33.5);
+  EXPECT_LE(Drafted("500 g", "0.1 mm", {box, layer}).coarse_graining.Levels().front(), 13);
+  // Three D90 below the spreader are one and a half grains of twice the size.
+  EXPECT_EQ(Drafted("5 g", "0.1 mm", {box, layer}).coarse_graining.Levels().front(), 2);
+}
+
+// 4 d + 4 sets by every test, of two parameters and two nuisances that count half.
+TEST(DraftedSpec, ItsSimulationsGoWithItsTests) {
+  const std::vector<std::string> tests{"tilting_box:angle=33deg", "drum:angle=33deg",
+                                       "column_collapse:runout=30mm", "draw_down:angle=33deg",
+                                       "tapped_density:tapped_density=1500kg/m^3"};
+  EXPECT_EQ(Drafted("5 g", "0.5 mm", {tests[0]}).budget.simulations, 60);
+  EXPECT_EQ(Drafted("5 g", "0.5 mm", tests).budget.simulations, 2 * 5 * 16);
 }
 
 }  // namespace numbers_only_test

@@ -273,9 +273,97 @@ TEST(Estimate, ConfirmsEachSetByEveryTestOnce) {
   CampaignSpec capped = spec;
   capped.trial_time_cap =
       (confirms.trials[0].core_seconds + confirms.confirming[0].core_seconds) / 2;
-  ASSERT_EQ(EstimateWarnings(capped, confirms).size(), 1u);
-  EXPECT_THAT(EstimateWarnings(capped, confirms).front(),
-              HasSubstr("at scale factor 2: a trial takes about"));
+  EXPECT_THAT(EstimateWarnings(spec, confirms), ElementsAre(HasSubstr("within the first design")));
+  EXPECT_THAT(EstimateWarnings(capped, confirms),
+              ElementsAre(HasSubstr("at scale factor 2: a trial takes about"),
+                          HasSubstr("within the first design")));
+}
+
+// 4 d + 4 sets of two parameters, at the only scale factor.
+TEST(Estimate, WarnsOfABudgetThatEndsWithinTheFirstDesign) {
+  const auto warnings = [](int simulations) {
+    const CampaignSpec spec =
+        Read(R"("coarse_graining": {"scale_factor": 4}, "budget": {"simulations": )" +
+             std::to_string(simulations) + "}");
+    return EstimateWarnings(spec, EstimateCampaign(spec));
+  };
+  EXPECT_THAT(warnings(11),
+              ElementsAre("11 simulations end within the first design, 12 sets of each experiment, "
+                          "and none is chosen by what the others have told: give it 12 at least, "
+                          "better twice as many"));
+  EXPECT_THAT(warnings(1), ElementsAre(HasSubstr("1 simulation ends within")));
+  EXPECT_THAT(warnings(12), ElementsAre());
+}
+
+// Steps go with √Y: at 1 GPa ten times as many as in the middle, 10 MPa.
+TEST(Estimate, TrialsAtTheEndsOfTheRangesCountWhereTheseSetTheCost) {
+  CampaignSpec spec = Read(R"("coarse_graining": {"scale_factor": 4}, "workers": 1,
+      "confirm": {"candidates": 0}, "budget": {"simulations": 20}, "parameters": {
+        "sliding_friction": {"min": 0.1, "max": 0.9},
+        "youngs_modulus": {"min": "0.1 MPa", "max": "1 GPa", "scale": "log"}})");
+  const CampaignEstimate estimate = EstimateCampaign(spec);
+  const TrialEstimate& trial = estimate.trials.at(0);
+  EXPECT_NEAR(trial.at_ends, 10, 0.1);
+  EXPECT_NEAR(estimate.campaign_time - estimate.proposal_time, 20 * trial.MostCoreSeconds(),
+              1e-9 * estimate.campaign_time);
+  EXPECT_THAT(
+      EstimateText(spec, estimate),
+      HasSubstr("a trial in the middle of the ranges, up to 10 times as much at their ends"));
+  EXPECT_THAT(EstimateWarnings(spec, estimate), ElementsAre());
+  spec.trial_time_cap = 3 * trial.core_seconds;
+  EXPECT_THAT(
+      EstimateWarnings(spec, estimate),
+      ElementsAre(HasSubstr(" at the ends of the ranges, and fails at the trial_time_cap")));
+  const CampaignSpec frictions = Read(R"("coarse_graining": {"scale_factor": 4})");
+  const CampaignEstimate usual = EstimateCampaign(frictions);
+  EXPECT_EQ(usual.trials.at(0).at_ends, 1);
+  EXPECT_EQ(EstimateText(frictions, usual).find("the ranges"), std::string::npos);
+}
+
+// As `talus status` counts it.
+TEST(Estimate, WhatFollowsTheAnswerIsAShareOfItsCoreTime) {
+  const auto estimated = [](const std::string& shares) {
+    return EstimateCampaign(Read(R"("coarse_graining": {"scale_factor": 4}, "workers": 1,
+        "confirm": {"candidates": 0}, "budget": {"simulations": 20)" +
+                                 shares + "}"));
+  };
+  const CampaignEstimate both = estimated(R"(, "sensitivity_share": 0.05}, "next": {"share": 0.2)");
+  EXPECT_NEAR(both.afterwards, 0.25 * 20 * both.trials.at(0).core_seconds, 1e-9 * both.afterwards);
+  EXPECT_EQ(estimated(R"(}, "next": {"share": 0)").afterwards, 0);
+}
+
+// Twelve trials of the design at the largest scale factor, each a sixteenth of the finest: all
+// counted as the finest there was time for one or two.
+TEST(Estimate, AWallClockBuysTheDesignAtItsOwnCost) {
+  const std::string members = R"("coarse_graining": {"scale_factors": [4, 2]}, "workers": 1,
+                                 "budget": {"simulations": 200)";
+  const CampaignEstimate all = EstimateCampaign(Read(members + "}"));
+  const double limit = 24 * all.trials.at(0).core_seconds;
+  const CampaignEstimate few =
+      EstimateCampaign(Read(members + ", \"wall_clock\": " + std::to_string(limit) + "}"));
+  // The speed is measured anew: as often as not it is half as high beside other work.
+  EXPECT_GT(few.num_in_wall_clock.value(), 6);
+}
+
+TEST(Estimate, EachExperimentHasItsOwnSpeed) {
+  CampaignSpec spec = Read(R"("coarse_graining": {"scale_factor": 4})");
+  std::vector<ExperimentSpec> two(2, ExperimentsOf(spec).front());
+  two[1].name = "again";
+  spec.experiment.reset();
+  spec.experiments = two;
+  const TrialEstimates estimate = EstimateTrials(spec);
+  ASSERT_EQ(estimate.grain_steps_per_s.size(), 2u);
+  EXPECT_DOUBLE_EQ(estimate.trials.at(1).core_seconds,
+                   estimate.trials[1].grain_steps / estimate.grain_steps_per_s[1]);
+}
+
+TEST(Estimate, OneSimulationIsOne) {
+  const CampaignSpec spec =
+      Read(R"("coarse_graining": {"scale_factors": [4, 2]}, "budget": {"simulations": 1})");
+  const CampaignEstimate estimate = EstimateCampaign(spec);
+  EXPECT_THAT(EstimateText(spec, estimate), HasSubstr("; 1 simulation takes "));
+  EXPECT_EQ(EstimateText(spec, estimate).find("to choose trials"), std::string::npos);
+  EXPECT_THAT(EstimateWarnings(spec, estimate), ElementsAre(HasSubstr("1 simulation ends before")));
 }
 
 }  // namespace scale_factors_test
