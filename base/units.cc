@@ -198,7 +198,9 @@ double ParseQuantity(std::string_view text, Dimension dimension) {
   if (name.empty()) return value;
   const std::string canonical = Canonical(name);
   for (const Unit& unit : UnitsOf(dimension)) {
-    if (unit.name == canonical) return value * unit.si;
+    if (unit.name != canonical) continue;
+    if (!std::isfinite(value * unit.si)) Refuse(text, dimension, "is too large a number");
+    return value * unit.si;
   }
   Refuse(text, dimension, "has the unit \"" + std::string(name) + "\", which does not fit here");
 }

@@ -67,6 +67,14 @@ install(FILES ${talus_described}/fish/talus.fish
 # `cpack` in the build folder makes talus_VERSION_ARCH.deb, and talus-VERSION-Linux-ARCH.tar.gz, which runs wherever it is
 # unpacked (TalusArchive.cmake).
 set(CPACK_GENERATOR DEB TGZ)
+# Without these two cpack makes no package, or one that names no library it needs.
+find_program(TALUS_SHLIBDEPS dpkg-shlibdeps)
+find_program(TALUS_FILE file)
+mark_as_advanced(TALUS_SHLIBDEPS TALUS_FILE)
+if(NOT TALUS_SHLIBDEPS OR NOT TALUS_FILE)
+  message(STATUS "cpack makes no Debian package: it needs Debian's dpkg-dev and file")
+  set(CPACK_GENERATOR TGZ)
+endif()
 set(CPACK_SYSTEM_NAME ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/TalusArchive.cmake)
 set(CPACK_PACKAGE_NAME talus)

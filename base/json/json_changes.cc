@@ -1,7 +1,11 @@
 #include "base/json/json_changes.h"
 
+#include <cmath>
+#include <limits>
+
 #include "base/json/json_text.h"
 #include "base/text/number_text.h"
+#include "base/text/printable.h"
 
 namespace talus::base {
 namespace {
@@ -10,7 +14,20 @@ using nlohmann::ordered_json;
 
 std::string Short(const ordered_json& value) {
   std::string text = JsonText(value);
-  return text.size() > 40 ? text.substr(0, 37) + "…" : text;
+  if (text.size() <= 40) return text;
+  text.resize(37);
+  while (!IsUtf8(text)) text.pop_back();  // a character that was cut in two
+  return text + "…";
+}
+
+// One quantity in two units, "1.602 g" and "1602 mg", is two numbers by a last digit or two.
+bool IsTheSame(const ordered_json& before, const ordered_json& after) {
+  if (before == after) return true;
+  if (!before.is_number_float() || !after.is_number_float()) return false;
+  const double from = before.get<double>();
+  const double to = after.get<double>();
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  return std::abs(from - to) <= kRounding * std::abs(from);
 }
 
 // 0.001602 for 0.0016020000000000001, where the two still differ then.
@@ -26,7 +43,7 @@ void Shorten(const ordered_json& before, const ordered_json& after, JsonChange& 
 
 void FindChanges(const ordered_json& before, const ordered_json& after, const std::string& path,
                  std::vector<JsonChange>& changes) {
-  if (before == after) return;
+  if (IsTheSame(before, after)) return;
   if (before.is_array() && after.is_array() && before.size() == after.size()) {
     for (std::size_t i = 0; i < before.size(); ++i) {
       FindChanges(before[i], after[i], path + "[" + std::to_string(i) + "]", changes);

@@ -149,7 +149,7 @@ void WarnOfMinutes(const campaign::CampaignSpec& spec) {
   const double limit = spec.runner.slurm.time.value_or(spec.trial_time_cap);
   const double minutes = std::ceil(limit / kMinute);
   if (!(limit > 0) || minutes * kMinute == limit) return;
-  std::cout << "  warning: the limit of a trial, " << base::DurationText(limit) << ", is "
+  std::cout << "  warning: the limit of a trial, " << base::ShortNumber(limit) << " s, is "
             << base::ShortNumber(minutes) << " min on Slurm, which counts in whole minutes\n";
 }
 

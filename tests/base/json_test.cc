@@ -9,6 +9,7 @@
 #include "base/json/json_schema.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/printable.h"
 #include "tests/error_in.h"
 
 namespace talus::base {
@@ -115,6 +116,22 @@ TEST(EnumeratorNames, AreInSnakeCaseFromTheFirstToTheLast) {
   for (const auto& [name, ending] : Names<Ending>::kList) names.emplace_back(name);
   EXPECT_THAT(names, testing::ElementsAre("done", "time_cap", "lost_grains"));
   EXPECT_EQ(NameOf(Ending::kTimeCap), "time_cap");
+}
+
+// "1.602 g", "1602 mg" and 0.001602: a campaign refused one for the other.
+TEST(JsonChanges, OneQuantityInTwoUnitsIsNoChange) {
+  const nlohmann::ordered_json grams{{"mass", 1.602 * 1e-3}}, kilograms{{"mass", 0.001602}};
+  ASSERT_NE(grams, kilograms);
+  EXPECT_TRUE(JsonChanges(grams, kilograms).empty());
+  EXPECT_EQ(JsonChanges({{"mass", 0.001602}}, {{"mass", 0.001602001}}).size(), 1u);
+  EXPECT_EQ(JsonChanges({{"mass", 0.0}}, {{"mass", 1e-300}}).size(), 1u);
+}
+
+TEST(JsonChanges, ShortensNoTextWithinACharacter) {
+  const std::string text = std::string(35, 'x') + "µµµµµ";
+  const auto changes = JsonChanges({{"name", text}}, {{"name", "y"}});
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_TRUE(IsUtf8(changes[0].before)) << changes[0].before;
 }
 
 TEST(JsonChanges, NamesWhatDiffersByItsPath) {

@@ -207,6 +207,10 @@ class Names(unittest.TestCase):
         with (out / "mass_study.csv").open() as rows:
             found = [float(row["mass_kg"]) for row in csv.DictReader(rows)]
         self.assertEqual(found, [1e-3, 1.5e-3, 2e-3])
+        # What an earlier call has left among them is no mass.
+        for _ in range(2):
+            done = run(photos, "--choose-mass", "--plate-diameter", "10mm", "--out", photos / "study")
+            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_several_heaps_in_one_folder_are_never_silently_one(self):
         named = {

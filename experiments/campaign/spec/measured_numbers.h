@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -62,7 +63,12 @@ struct MeasuredNumber {
 
  private:
   // The mean of equal numbers may differ from them in its last bit.
-  bool IsOneValue() const { return std::ranges::min(*values) == std::ranges::max(*values); }
+  // Whatever units it is given in: "5.07 mg" and "5070 ug" differ by a last digit.
+  bool IsOneValue() const {
+    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+    const auto [least, most] = std::ranges::minmax(*values);
+    return most - least <= kRounding * most;
+  }
   bool IsAlike() const { return kYesNo && IsOneValue(); }
   void ValidateError(base::Problems& problems) const {
     problems.Require(!standard_error || (*standard_error > 0 && std::isfinite(*standard_error)),

@@ -60,7 +60,8 @@ std::vector<fs::path> FoldersIn(const fs::path& path) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(path)) {
     const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (entry.is_directory() && !is_hidden) folders.push_back(entry.path());
+    if (!entry.is_directory() || is_hidden) continue;
+    if (!base::IsOutputFolder(entry.path(), "measure")) folders.push_back(entry.path());
   }
   std::sort(folders.begin(), folders.end());
   return folders;

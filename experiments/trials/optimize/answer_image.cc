@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/byte_order_mark.h"
+#include "base/text/lower.h"
 #include "base/text/number_text.h"
 #include "base/trimmed.h"
 #include "imaging/formats/images/image_file.h"
@@ -33,7 +35,7 @@ std::vector<double> Row(std::string_view line, const std::string& place) {
 }
 
 AnswerImage FromCsv(const std::filesystem::path& path) {
-  std::istringstream text(base::ReadFile(path));
+  std::istringstream text(std::string(base::WithoutByteOrderMark(base::ReadFile(path))));
   std::vector<std::vector<double>> rows;
   int number = 0;
   for (std::string line; std::getline(text, line);) {
@@ -47,7 +49,7 @@ AnswerImage FromCsv(const std::filesystem::path& path) {
 }  // namespace
 
 AnswerImage ReadAnswerImage(const std::filesystem::path& path) {
-  if (path.extension() == ".csv") return FromCsv(path);
+  if (base::Lower(path.extension()) == ".csv") return FromCsv(path);
   const imaging::GrayImage gray = imaging::ReadGrayImage(path);
   AnswerImage image{.field = {}, .width = gray.width};
   for (const std::uint8_t pixel : gray.pixels) {
