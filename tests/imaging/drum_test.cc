@@ -12,66 +12,14 @@
 #include "imaging/drums/drum_circle.h"
 #include "imaging/drums/drum_overlay.h"
 #include "imaging/formats/images/image_file.h"
-#include "tests/error_in.h"
+#include "tests/imaging/drum_photograph.h"
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
 namespace drum_test {
 
-namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kSide = 300;          // of the picture [px]
-constexpr double kCenterX = 152.3;  // of the drum [px]
-constexpr double kCenterY = 147.6;
-constexpr double kRadius = 140;
-
-// A drum lit from behind, with a dark ring, before a wall that is neither; its powder lies below a
-// plane that is `depth` radii below the axis and falls to the right by `angle`.
-struct Drawn {
-  double angle = 0;    // [rad]
-  double depth = 0.2;  // [-]
-};
-
-double Level(const Drawn& drawn, double x, double y) {
-  const double right = x - kCenterX, up = kCenterY - y;
-  const double r = std::hypot(right, up);
-  if (r > kRadius) return 170;
-  if (r > kRadius - 4) return 15;
-  const double above = up * std::cos(drawn.angle) + right * std::sin(drawn.angle);
-  return above < -drawn.depth * kRadius ? 25 : 240;
-}
-
-// Each pixel is the mean of 4 × 4 points, as a camera's is.
-GrayImage Draw(const Drawn& drawn) {
-  GrayImage image{.width = kSide, .height = kSide, .pixels = {}};
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      double sum = 0;
-      for (int i = 0; i < 16; ++i) {
-        sum += Level(drawn, x + (i % 4 + 0.5) / 4, y + (i / 4 + 0.5) / 4);
-      }
-      image.pixels.push_back(static_cast<std::uint8_t>(sum / 16 + 0.5));
-    }
-  }
-  return image;
-}
-
-fs::path Write(const std::string& name, const GrayImage& image) {
-  const fs::path file = fs::path(testing::TempDir()) / ("drum_" + name + ".png");
-  WritePng(file, image);
-  return file;
-}
-
-std::string ErrorOf(const DrumPhotos& options) {
-  return ErrorIn([&] { MeasureDrum(options); });
-}
-
-MeasuredDrum Measure(const Drawn& drawn) {
-  return MeasureDrum({.photos = {Write("one", Draw(drawn))}, .diameter = 0.084});
-}
 
 // The share of a disc below a chord that is `depth` radii of `radius` from its centre.
 double Segment(double depth) {
@@ -231,46 +179,6 @@ TEST(Drum, TheScaleIsThatOfTheRingsOutsideWhereItIsGiven) {
   EXPECT_THAT(ErrorOf(photos), HasSubstr("circle_diameter: is 0.13, must be the drum's diameter"));
 }
 
-// Angles of 32, 33 and 34 degrees: their mean, a standard error of 1/√3, and a surface that moves.
-TEST(Drum, SeriesHasErrors) {
-  std::vector<fs::path> photos;
-  for (const double angle : {32.0, 33.0, 34.0}) {
-    photos.push_back(Write(std::to_string(angle), Draw({.angle = angle * kDegree})));
-  }
-  const MeasuredDrum drum = MeasureDrum({.photos = photos, .diameter = 0.084});
-  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
-  EXPECT_NEAR(drum.angle.standard_error / kDegree, 1 / std::sqrt(3.0), 0.05);
-  // A plane 0.2 radii below the axis that turns by 1° about it: 1.36 px of 0.3 mm at the mean.
-  EXPECT_NEAR(drum.surface_sd, 4.1e-4, 0.4e-4);
-}
-
-// The mean picture of 30, 30, 30 and 42 degrees has a surface of 30.3, and the rig the mean of 33.
-TEST(Drum, ASkewedSeriesHasTheMeanOfItsAngles) {
-  std::vector<fs::path> photos;
-  for (const double angle : {30.0, 30.0, 30.0, 42.0}) {
-    photos.push_back(
-        Write("skewed" + std::to_string(photos.size()), Draw({.angle = angle * kDegree})));
-  }
-  const MeasuredDrum drum = MeasureDrum({.photos = photos, .diameter = 0.084});
-  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.1);
-  EXPECT_NEAR(drum.angle.standard_error / kDegree, 3, 0.1);  // 6/√4
-  const MeasuredDrum two = MeasureDrum({.photos = {photos[0], photos[3]}, .diameter = 0.084});
-  EXPECT_NEAR(two.surface.fill.value, Measure({.angle = 36 * kDegree}).surface.fill.value, 0.003);
-}
-
-// Their average is no powder's: a fill of a half and a slope of nothing.
-TEST(Drum, ASeriesWithAMirroredPictureIsRefused) {
-  const fs::path right = Write("right", Draw({.angle = 35 * kDegree}));
-  const fs::path mirrored = Write("mirrored", Draw({.angle = -35 * kDegree}));
-  for (const std::vector<fs::path>& photos :
-       {std::vector{right, mirrored}, std::vector{right, right, mirrored}}) {
-    EXPECT_THAT(ErrorOf({.photos = photos, .diameter = 0.084}),
-                HasSubstr(mirrored.string() + ": the powder is higher on the right, in " +
-                          right.string() + " on the left"));
-  }
-  EXPECT_EQ(ErrorOf({.photos = {mirrored, mirrored}, .diameter = 0.084}), "");
-}
-
 // A drum that turns the other way is the mirror image of one that turns as the rig does.
 TEST(Drum, ProfileTurnsClockwise) {
   for (const double angle : {33 * kDegree, -33 * kDegree}) {
@@ -311,11 +219,6 @@ TEST(Drum, ErrorsSayWhatToDo) {
   std::rotate(moved.pixels.begin(), moved.pixels.begin() + 5, moved.pixels.end());
   EXPECT_THAT(ErrorOf({.photos = {good, Write("moved", moved)}, .diameter = 0.084}),
               HasSubstr("stands still"));
-}
-
-GrayImage Inverse(GrayImage photo) {
-  for (std::uint8_t& level : photo.pixels) level = static_cast<std::uint8_t>(255 - level);
-  return photo;
 }
 
 class DrumFills : public testing::TestWithParam<double> {};
@@ -392,19 +295,6 @@ TEST(Drum, OneThatIsCutOffIsRefused) {
   }
 }
 
-// Their average would be of neither light, and it was taken.
-TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
-  const GrayImage photo = Draw({.angle = 33 * kDegree});
-  const GrayImage inverse = Inverse(photo);
-  GrayImage darker = photo;
-  for (std::uint8_t& level : darker.pixels) level = static_cast<std::uint8_t>(level / 2);
-  const fs::path good = Write("usual", photo);
-  EXPECT_THAT(ErrorOf({.photos = {good, Write("inverse", inverse)}, .diameter = 0.084}),
-              AllOf(HasSubstr("drum_inverse.png"), HasSubstr("lit otherwise than its series")));
-  EXPECT_THAT(ErrorOf({.photos = {good, good, Write("darker", darker)}, .diameter = 0.084}),
-              AllOf(HasSubstr("drum_darker.png"), HasSubstr("0.5 times as bright")));
-}
-
 // A drum far off was said not to stand in the picture's middle.
 TEST(Drum, ASmallOneIsToBeCutOut) {
   const GrayImage large = Draw({.angle = 33 * kDegree});
@@ -434,19 +324,6 @@ TEST(Drum, ALevelSurfaceTurnsTheWayThatIsSaid) {
       EXPECT_GT(drum.surface.slope_angle.value, 0);
     }
   }
-}
-
-// Nobody said how it turns: the mean picture of -1, -1, -1 and 4.5 degrees leans to the right, the
-// mean angle to the left, which has to be that of the turning.
-TEST(Drum, ASeriesTurnsAsItsMeanAngleLeans) {
-  std::vector<fs::path> photos;
-  for (const double angle : {-1.0, -1.0, -1.0, 4.5}) {
-    photos.push_back(
-        Write("leaning" + std::to_string(photos.size()), Draw({.angle = angle * kDegree})));
-  }
-  const MeasuredDrum drum = MeasureDrum({.photos = photos, .diameter = 0.084});
-  EXPECT_EQ(drum.turning, Turning::kClockwise);
-  EXPECT_NEAR(drum.angle.value / kDegree, 0.375, 0.2);
 }
 
 }  // namespace drum_test
