@@ -106,6 +106,25 @@ class Builder : public JsonEvents {
   std::string reason_;
 };
 
+// What is wrong with a number that other programs write so and JSON does not know; empty where the
+// character at `offset`, the last one read, belongs to none.
+std::string NumberSlip(std::string_view text, std::size_t offset) {
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+  };
+  if (text[offset] == '.' || text[offset] == '+') {
+    return "a number begins with a digit or with -; write it as 0.5 or 1e-3";
+  }
+  if (!is_digit(offset)) return "";
+  std::size_t start = offset;
+  while (start > 0 && is_digit(start - 1)) --start;
+  if (start >= 2 && text[start - 1] == ',' && is_digit(start - 2)) {
+    return "a number has a point before its decimals, not a comma";
+  }
+  return start < offset && text[start] == '0' ? "a number of several digits does not begin with 0"
+                                              : "";
+}
+
 // What the parser says, told in a user's words. Its own are of tokens and grammar.
 std::string Builder::Reason(std::size_t offset, std::string_view what) const {
   const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
@@ -129,6 +148,7 @@ std::string Builder::WrongToken(std::size_t offset, std::string_view what) const
   const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
   const std::string_view text = position_.text;
   const std::size_t before = offset == 0 ? text.npos : text.find_last_not_of(" \t\r\n", offset - 1);
+  if (const std::string slip = NumberSlip(text, offset); !slip.empty()) return slip;
   const bool closes = text[offset] == '}' || text[offset] == ']';
   if (closes && before != text.npos && text[before] == ',') {
     return "a comma stands before the closing bracket; take it out";

@@ -248,6 +248,9 @@ TEST_F(SphereFilesTest, ErrorsSayWhatIsWrongAndWhere) {
   EXPECT_THAT(ErrorOf("1,2,3,4\n"), HasSubstr("the first line must name the columns"));
   EXPECT_THAT(ErrorOf("x,y,z,r\n1,2,3,4\n1,2,3\n"), HasSubstr("heap.txt:3: has 3 values"));
   EXPECT_THAT(ErrorOf("x,y,z,r\n1,2,3,4\n1,2,oops,4\n"), HasSubstr("sphere 2 has a position"));
+  EXPECT_THAT(ErrorOf("x;y;z;r\n1;2;3;4\n1,5;2;3;4\n"),
+              HasSubstr("heap.txt:3: has a decimal comma (1,5)"));
+  EXPECT_THAT(Read("x;y;z;r;layer\n1;2;3;4;1,5\n").size(), 1u);  // a column that nobody reads
   EXPECT_THAT(ErrorOf("x,y,z,r\n1,2,3,-4\n"), HasSubstr("a radius that is not positive"));
   EXPECT_THAT(ErrorOf(std::string(kDump).substr(0, std::strlen(kDump) - 25)),
               HasSubstr("step 200 ends after 1 of 2 atoms"));

@@ -1,4 +1,6 @@
 // Tables of numbers with a line of names: talus, ParaView's exported tables, YADE's text export.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/error.h"
@@ -68,6 +70,16 @@ Head ReadHead(TextCursor& cursor) {
   return head;
 }
 
+// A spreadsheet in a language with decimal commas writes numbers so.
+bool HasDecimalComma(std::string_view cell) {
+  std::string with_point(cell);
+  const std::size_t comma = with_point.find(',');
+  if (comma == std::string::npos) return false;
+  with_point[comma] = '.';
+  double number = 0;
+  return ParseNumber(with_point, number);
+}
+
 void ReadRow(const TextCursor& cursor, const std::vector<std::string_view>& cells,
              const SphereColumns& columns, std::vector<double>& row,
              std::vector<base::Sphere>& spheres) {
@@ -79,7 +91,17 @@ void ReadRow(const TextCursor& cursor, const std::vector<std::string_view>& cell
     // A column that is not ours may hold a text; if it is ours, Row's value is refused later.
     if (!ParseNumber(cells[c], row[c])) row[c] = base::kNotKnown;
   }
-  spheres.push_back(columns.Row(row));
+  const base::Sphere sphere = columns.Row(row);
+  const auto& [x, y, z] = sphere.position;
+  if (!std::isnan(x + y + z + sphere.radius)) {
+    spheres.push_back(sphere);
+    return;
+  }
+  const auto comma = std::ranges::find_if(cells, HasDecimalComma);
+  if (comma != cells.end()) {
+    cursor.Fail("has a decimal comma (" + std::string(*comma) + "); write numbers with a point");
+  }
+  spheres.push_back(sphere);
 }
 
 }  // namespace
