@@ -121,6 +121,8 @@ void PointToList(const nlohmann::json& root, base::Problems& problems) {
                        "\"experiments\": [{\"name\": \"heap\", …}] in place of \"experiment\"");
 }
 
+constexpr double kLongestBudget = 1e12;  // [s]; beyond, times and counts are printed as nonsense
+
 // Whether every trial has the same objective, as a plain minimiser needs it.
 bool HasOneObjective(const CampaignSpec& spec) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
@@ -134,13 +136,13 @@ void BudgetOptions::Validate(base::Problems& problems) const {
   problems.Require(
       (simulations >= 1 || (simulations == 0 && core_time)) && simulations <= kMostSimulations,
       "simulations", simulations, "must be from 1 to 1000000");
-  problems.Require(!core_time || *core_time > 0, "core_time", core_time.value_or(0),
-                   "must be positive");
+  problems.Require(!core_time || (*core_time > 0 && *core_time <= kLongestBudget), "core_time",
+                   core_time.value_or(0), "must be positive, and at most 1e12 s");
   problems.RequireFromTo("min_simulations", min_simulations, 0, kMostSimulations);
   problems.Require(sensitivity_share >= 0 && sensitivity_share <= 1, "sensitivity_share",
                    sensitivity_share, "must be in [0, 1]");
-  problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
-                   "must be positive");
+  problems.Require(!wall_clock || (*wall_clock > 0 && *wall_clock <= kLongestBudget), "wall_clock",
+                   wall_clock.value_or(0), "must be positive, and at most 1e12 s");
 }
 
 void NoiseOptions::Validate(base::Problems& problems) const {
