@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "experiments/journal/records.h"
 
 namespace talus::analysis {
 
