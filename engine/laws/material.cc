@@ -13,6 +13,14 @@ void Material::Validate(base::Problems& problems) const {
                    "must not be negative");
   problems.Require(rolling_friction >= 0, "rolling_friction", rolling_friction,
                    "must not be negative");
+  // What nothing rubs like: an overflow of the laws otherwise.
+  constexpr double kMost = 1e6;
+  problems.Require(!(sliding_friction > kMost), "sliding_friction", sliding_friction,
+                   "must be at most 1e6");
+  problems.Require(!(rolling_friction > kMost), "rolling_friction", rolling_friction,
+                   "must be at most 1e6");
+  problems.Require(!(rolling_damping > kMost), "rolling_damping", rolling_damping,
+                   "must be at most 1e6");
   problems.Require(rolling_damping >= 0, "rolling_damping", rolling_damping,
                    "must not be negative");
   problems.Require(surface_energy >= 0, "surface_energy", surface_energy, "must not be negative");

@@ -217,6 +217,10 @@ double FillRegion::Narrowest() const {
   return shape == RegionShape::kBox ? std::min(*width_x, *width_y) : *diameter;
 }
 
+double FillRegion::Widest() const {
+  return shape == RegionShape::kBox ? std::max(*width_x, *width_y) : *diameter;
+}
+
 void FillRegion::Validate(base::Problems& problems) const {
   const bool box = shape == RegionShape::kBox;
   const auto positive = [&](const char* key, const std::optional<double>& value, bool needed) {

@@ -48,6 +48,7 @@ struct FillRegion {
   void Validate(base::Problems& problems) const;
   double Area() const;       // of the lower face [m²]
   double Narrowest() const;  // of its widths [m]
+  double Widest() const;     // of its widths [m]
 };
 
 struct FillRequest {

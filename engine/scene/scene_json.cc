@@ -5,6 +5,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
+#include "base/replaced.h"
 
 namespace talus::engine {
 namespace {
@@ -54,6 +55,14 @@ base::Problem InFile(base::Problem problem, const NumSpheres& num) {
                      " (is the fill's region inside the walls and free of spheres?)"};
 }
 
+// What many spheres of a fill do is said once.
+bool IsKnown(const base::Problem& problem, const base::Problems& problems) {
+  const std::string message = base::Replaced(problem.message, "; more are not listed", "");
+  return std::ranges::any_of(problems.list(), [&](const base::Problem& known) {
+    return known.path == problem.path && known.message == message;
+  });
+}
+
 }  // namespace
 
 LoadedScene LoadScene(const std::filesystem::path& path) {
@@ -90,8 +99,9 @@ LoadedScene LoadScene(base::JsonFile file) {
   loaded.scene.Validate(found);
   constexpr std::size_t kMost = 50;  // overlapping spheres may be many
   for (std::size_t i = 0; i < std::min(kMost, found.list().size()); ++i) {
-    problems.Add(
-        InFile(found.list()[i], {.stated = num_stated, .with_files = loaded.spec.spheres.size()}));
+    const base::Problem problem =
+        InFile(found.list()[i], {.stated = num_stated, .with_files = loaded.spec.spheres.size()});
+    if (!IsKnown(problem, problems)) problems.Add(problem);
   }
   if (found.size() > kMost) {
     problems.Add("", std::to_string(found.size() - kMost) + " more problems like these");

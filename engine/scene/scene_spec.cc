@@ -50,6 +50,14 @@ void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
                    fill.mass,
                    "must be less: its grains alone take above 64 % of the "
                    "region's volume; enlarge the region, or leave its height out");
+  // A column like that has its mass in another unit, most often, and takes minutes to fill.
+  constexpr double kMostWidths = 100;
+  const double height = volume / (fill.solid_fraction * region.Area());
+  problems.Require(region.height || height <= kMostWidths * region.Widest(), "mass", fill.mass,
+                   "in kg, which stands " + base::ShortNumber(height) + " m high in a region of " +
+                       base::ShortNumber(1e3 * region.Widest()) +
+                       " mm: one of mass, density and region has another unit; where all are "
+                       "right, give region.height");
   const std::string bad_mass = BadMass(volume, curve);
   problems.Require(bad_mass.empty(), "mass", bad_mass);
 }

@@ -194,13 +194,37 @@ TEST(SceneJson, AFillWithoutRoomSaysSo) {
     "fills": [{"mass": "1 g", "region": {"diameter": "5 mm", "height": "5 mm"},
                "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
               HasSubstr("fills[0].mass: is 0.001, must be less"));
-  // 4000 grains in a tube of which a third is the most; it was told to leave its height out.
+  // Grains in a tube of which they fill a third at most; it was told to leave its height out.
   EXPECT_THAT(ErrorOf(R"({
     "materials": [{"name": "a"}], "walls": [{"shape": "plane"}], "stop": {"steps": 1},
-    "fills": [{"mass": "5.2 g", "region": {"diameter": "1.5 mm"}, "solid_fraction": 0.6,
+    "fills": [{"mass": "0.3 g", "region": {"diameter": "1.5 mm"}, "solid_fraction": 0.6,
                "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
               HasSubstr("fills[0].solid_fraction: was not reached without overlaps; give a lower "
                         "one, such as 0.55"));
+}
+
+// Filling millions of grains into a tower takes minutes, and is hardly what was meant.
+TEST(SceneJson, AFillThatStandsAHundredWidthsHighIsRefusedUnlessItsHeightIsGiven) {
+  const auto error_of = [](const std::string& mass, const std::string& more = "") {
+    return ErrorOf(R"({"materials": [{"name": "a"}], "walls": [{"shape": "plane"}],
+                       "stop": {"steps": 1}, "fills": [{"mass": ")" +
+                   mass + R"(", "region": {"diameter": "5 mm")" + more +
+                   R"(}, "sizes": {"kind": "mono", "diameter": "1 mm"}}]})");
+  };
+  EXPECT_EQ(error_of("0.5 g"), "");
+  EXPECT_THAT(error_of("0.5 kg"), HasSubstr("fills[0].mass: is 0.5, in kg, which stands"));
+  EXPECT_THAT(error_of("15 g"), HasSubstr("m high in a region of 5 mm"));  // 0.56 m
+  EXPECT_EQ(error_of("1 g", R"(, "height": "1 m")"), "");
+}
+
+TEST(SceneJson, WhatManySpheresOfAFillDoIsSaidOnce) {
+  const std::string error = ErrorOf(R"({
+    "materials": [{"name": "a"}], "stop": {"steps": 1},
+    "walls": [{"name": "lid", "shape": "plane", "position": [0, 0, "5 mm"]}],
+    "fills": [{"mass": "0.1 g", "region": {"diameter": "5 mm"},
+               "sizes": {"kind": "mono", "diameter": "0.5 mm"}}]})");
+  EXPECT_THAT(error, HasSubstr("fills: a sphere stands in the wall \"lid\""));
+  EXPECT_EQ(error.find("a sphere"), error.rfind("a sphere"));
 }
 
 TEST(SceneJson, MissingFileAndBrokenJsonAreErrors) {
