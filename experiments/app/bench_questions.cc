@@ -13,13 +13,13 @@
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "base/units.h"
-#include "experiments/campaign/spec/plausible_quantity.h"
+#include "experiments/rigs/case/plausible_quantity.h"
 
 namespace talus::app {
 namespace {
 
-using campaign::BenchQuantity;
 using campaign::SpecAnswers;
+using rigs::BenchQuantity;
 
 enum class Asked {
   kAlways,
@@ -71,7 +71,7 @@ void Check(const Question& question, const std::string& answer) {
     throw base::ConfigError(is + "must be in (0, 1]");
   }
   if (!question.quantity) return;
-  const std::string text = campaign::ImplausibleText(*question.quantity, value);
+  const std::string text = rigs::ImplausibleText(*question.quantity, value);
   if (!text.empty()) throw base::ConfigError(is + text);
 }
 

@@ -9,14 +9,16 @@
 #include "base/text/number_text.h"
 #include "engine/bodies/particle.h"
 #include "experiments/campaign/spec/agreeing_numbers.h"
-#include "experiments/campaign/spec/plausible_quantity.h"
 #include "experiments/campaign/spec/plausible_stresses.h"
 #include "experiments/campaign/spec/possible_numbers.h"
+#include "experiments/rigs/case/plausible_quantity.h"
 
 namespace talus::campaign {
 namespace {
 
+using rigs::BenchQuantity;
 using rigs::Observable;
+using rigs::RequirePlausible;
 
 constexpr double kFewestGrains = 20;  // that could make a heap
 constexpr double kLooseFill = 1.02;   // of the mass filled: a balance is that good
@@ -84,21 +86,6 @@ void CheckMasses(const MeasuredNumbers& numbers, double filled, const std::strin
                        " s; is it in grams a second (\"g/s\")?");
 }
 
-void RequirePlausible(BenchQuantity quantity, double value, const std::string& path,
-                      base::Problems& problems) {
-  const std::string text = ImplausibleText(quantity, value);
-  problems.Require(text.empty(), path, value, text);
-}
-
-// A typical diameter of the grains and its key; 0 where a file or a table has it.
-std::pair<const char*, double> GrainDiameter(const engine::SizeDistribution& sizes) {
-  if (sizes.diameter) return {"diameter", *sizes.diameter};
-  if (sizes.mean) return {"mean", *sizes.mean};
-  if (sizes.median) return {"median", *sizes.median};
-  if (sizes.max) return {"max", *sizes.max};
-  return {"diameters", sizes.diameters.empty() ? 0 : sizes.diameters.back()};
-}
-
 // Both ends of a range, or the value that it is held at.
 template <class Range>
 void RequirePlausibleRange(BenchQuantity quantity, const std::optional<Range>& range,
@@ -111,16 +98,7 @@ void RequirePlausibleRange(BenchQuantity quantity, const std::optional<Range>& r
 }
 
 void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
-  const engine::Material& grains = spec.powder.material;
-  const std::string material = "powder.material.";
-  RequirePlausible(BenchQuantity::kGrainDensity, grains.density, material + "density", problems);
-  RequirePlausible(BenchQuantity::kYoungsModulus, grains.youngs_modulus,
-                   material + "youngs_modulus", problems);
-  RequirePlausible(BenchQuantity::kSurfaceEnergy, grains.surface_energy,
-                   material + "surface_energy", problems);
-  const auto& [key, diameter] = GrainDiameter(spec.powder.sizes);
-  RequirePlausible(BenchQuantity::kGrainDiameter, diameter, "powder.sizes." + std::string(key),
-                   problems);
+  rigs::RequirePlausibleGrains(spec.powder, problems);
   if (!spec.parameters) return;
   RequirePlausibleRange(BenchQuantity::kGrainDensity, spec.parameters->density, "density",
                         problems);
@@ -136,7 +114,7 @@ void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
 // One of the numbers that give it is wrong, and nothing tells which.
 void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
                          base::Problems& problems) {
-  const double diameter = GrainDiameter(powder.sizes).second;
+  const double diameter = rigs::TypicalDiameter(powder.sizes).second;
   const double one = engine::SphereMass(powder.material, diameter / 2);
   const double number = powder.mass / one;
   if (!(number < kFewestGrains) || !(powder.mass > 0)) return;
@@ -165,7 +143,7 @@ struct RigChecker {
     const std::string path = place("rig." + std::string(key));
     const std::string number = base::ShortNumber(value);
     if (info.dimension == base::Dimension::kVelocity) {
-      problems.Require(!(value > kFastest), path, value,
+      problems.Require(!(value > rigs::kFastest), path, value,
                        "in m/s, must be at most 5; write \"" + number + " mm/s\"");
     } else if (info.dimension == base::Dimension::kAngle) {
       problems.Require(!(value > 2 * std::numbers::pi), path, value,

@@ -5,6 +5,7 @@
 
 #include "engine/scene.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/case/plausible_quantity.h"
 #include "experiments/rigs/case/time_step.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
@@ -32,6 +33,7 @@ void CaseOutputs::Validate(base::Problems& problems) const {
 
 void Case::Validate(base::Problems& problems) const {
   ValidatePairs(pairs, problems);
+  RequirePlausibleGrains(powder, problems);
   RequireNoTube(rig.kind, rig.lifted_tube, "device", problems);
   const bool has_fill = rig.kind == RigKind::kDrum && rig.drum.fill;
   problems.Require(powder.mass != 0 || has_fill, "powder.mass",

@@ -1,10 +1,10 @@
-#include "experiments/campaign/spec/plausible_quantity.h"
+#include "experiments/rigs/case/plausible_quantity.h"
 
 #include <array>
 
 #include "base/text/number_text.h"
 
-namespace talus::campaign {
+namespace talus::rigs {
 namespace {
 
 using base::Dimension;
@@ -62,20 +62,47 @@ bool IsWithin(const Plausible& plausible, double value) {
 
 }  // namespace
 
-Dimension DimensionOf(BenchQuantity quantity) { return PlausibleOf(quantity).dimension; }
-
 std::string ImplausibleText(BenchQuantity quantity, double value) {
   const Plausible& plausible = PlausibleOf(quantity);
   if (!(value > 0) || IsWithin(plausible, value)) return "";
   std::string text = "in " + std::string(base::SiUnit(plausible.dimension)) + ", must be ";
   text += plausible.low > 0 ? "from " + base::ShortNumber(plausible.low, 6) + " to " : "at most ";
   text += base::ShortNumber(plausible.high, 6);
+  constexpr double kHopeless = 1e100;  // with a unit's factor too large for a double
   for (const Slip& slip : plausible.slips) {
     const std::string meant = base::ShortNumber(slip.factor * value) + " " + slip.unit;
-    if (!IsWithin(plausible, base::ParseQuantity(meant, plausible.dimension))) continue;
+    if (value > kHopeless || !IsWithin(plausible, base::ParseQuantity(meant, plausible.dimension)))
+      continue;
     return text + "; write \"" + meant + "\"";
   }
   return text;
 }
 
-}  // namespace talus::campaign
+void RequirePlausible(BenchQuantity quantity, double value, std::string_view path,
+                      base::Problems& problems) {
+  const std::string text = ImplausibleText(quantity, value);
+  problems.Require(text.empty(), path, value, text);
+}
+
+std::pair<const char*, double> TypicalDiameter(const engine::SizeDistribution& sizes) {
+  if (sizes.diameter) return {"diameter", *sizes.diameter};
+  if (sizes.mean) return {"mean", *sizes.mean};
+  if (sizes.median) return {"median", *sizes.median};
+  if (sizes.max) return {"max", *sizes.max};
+  return {"diameters", sizes.diameters.empty() ? 0 : sizes.diameters.back()};
+}
+
+void RequirePlausibleGrains(const Powder& powder, base::Problems& problems) {
+  const engine::Material& grains = powder.material;
+  const std::string material = "powder.material.";
+  RequirePlausible(BenchQuantity::kGrainDensity, grains.density, material + "density", problems);
+  RequirePlausible(BenchQuantity::kYoungsModulus, grains.youngs_modulus,
+                   material + "youngs_modulus", problems);
+  RequirePlausible(BenchQuantity::kSurfaceEnergy, grains.surface_energy,
+                   material + "surface_energy", problems);
+  const auto& [key, diameter] = TypicalDiameter(powder.sizes);
+  RequirePlausible(BenchQuantity::kGrainDiameter, diameter, "powder.sizes." + std::string(key),
+                   problems);
+}
+
+}  // namespace talus::rigs

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <utility>
 
-#include "base/units.h"
+#include "base/problems.h"
+#include "experiments/rigs/case/case.h"
 
-namespace talus::campaign {
+namespace talus::rigs {
 
 enum class BenchQuantity {
   kGrainDensity,
@@ -21,10 +24,18 @@ enum class BenchQuantity {
 
 inline constexpr double kFastest = 5;  // part of a rig [m/s]
 
-base::Dimension DimensionOf(BenchQuantity quantity);
-
 // What is wrong with the value [SI], to stand after "is 4.386, ": "in kg/m^3, must be from 25 to
 // 25000; write "4.386 g/cm^3"". Empty where it can be, or is not positive.
 std::string ImplausibleText(BenchQuantity quantity, double value);
 
-}  // namespace talus::campaign
+// Adds that as a problem.
+void RequirePlausible(BenchQuantity quantity, double value, std::string_view path,
+                      base::Problems& problems);
+
+// The same of what the grains of `powder` are, which stands at that key.
+void RequirePlausibleGrains(const Powder& powder, base::Problems& problems);
+
+// A typical diameter of the grains [m] and its key in `sizes`; 0 where a file or a table has it.
+std::pair<const char*, double> TypicalDiameter(const engine::SizeDistribution& sizes);
+
+}  // namespace talus::rigs
