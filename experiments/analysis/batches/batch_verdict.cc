@@ -55,7 +55,7 @@ std::vector<std::string> ParametersApart(const BatchComparison& c, std::size_t b
   if (!c.together[batch - 1].is_found) return apart;
   for (const BatchParameter& p : c.parameters) {
     const BatchDifference& d = p.differences[batch - 1];
-    if (d.is_found) apart.push_back(p.name + " by " + MedianText(p, d));
+    if (d.is_found && !p.is_nuisance) apart.push_back(p.name + " by " + MedianText(p, d));
   }
   if (apart.empty()) apart.push_back("the parameters together, none of them by itself");
   return apart;
@@ -111,6 +111,10 @@ BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
           .is_found = !found.empty(),
           .measured_by_chance = chance,
           .text = found.empty() ? "no difference found" : "differs: " + base::Joined(found, ", ")};
+}
+
+int NumAsked(const BatchComparison& c) {
+  return static_cast<int>(std::ranges::count(c.parameters, false, &BatchParameter::is_nuisance));
 }
 
 int NumMeasured(const BatchComparison& c, const std::string& batch) {

@@ -43,17 +43,19 @@ struct BatchDifference {
 struct BatchParameter {
   std::string name{};
   std::string unit{};
-  std::string scale{};  // as the first batch searched it: "linear", "log"
+  std::string scale{};       // as the first batch searched it: "linear", "log"
+  bool is_nuisance = false;  // searched, but not asked for: it decides nothing here
   std::vector<BatchRange> batches{};
   std::vector<BatchDifference> differences{};  // of all but the first batch
 
   bool IsLog() const { return scale == base::NameOf(optimizer::Scale::kLog); }
 
-  TALUS_FIELDS(name, unit, scale, batches, differences);
+  static constexpr base::FieldKey kKeys[] = {{"is_nuisance", "nuisance"}};
+  TALUS_FIELDS(name, unit, scale, is_nuisance, batches, differences);
 };
 
-// All parameters of a batch less those of the first: a curve of equal sets may hide in single
-// parameters what it shows in them together.
+// All parameters of a batch that are asked for less those of the first: a curve of equal sets may
+// hide in single parameters what it shows in them together.
 struct BatchTogether {
   std::string batch{};
   // Credible level of the smallest joint region of the difference that reaches no difference, by
@@ -122,6 +124,9 @@ struct BatchComparison {
 // of the parameters.
 BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders,
                                const std::map<std::string, std::string>& matters);
+
+// How many parameters are asked for.
+int NumAsked(const BatchComparison& comparison);
 
 // Share of the draws of a difference, one a row, that lie nearer to their mean than 0 does, by
 // their covariance.

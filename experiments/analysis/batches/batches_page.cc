@@ -58,7 +58,8 @@ std::string DifferenceTable(const BatchComparison& c) {
                           "th");
   for (const BatchParameter& p : c.parameters) {
     for (std::size_t b = 0; b < c.batches.size(); ++b) {
-      std::vector<std::string> cells{p.name, p.unit, c.batches[b], InRange(p.batches[b])};
+      std::vector<std::string> cells{p.name + (p.is_nuisance ? " (not asked for)" : ""), p.unit,
+                                     c.batches[b], InRange(p.batches[b])};
       if (b > 0) {
         const BatchDifference& d = p.differences[b - 1];
         cells.insert(cells.end(), {Change(p, d.range), ChangeText(p, d.matters),

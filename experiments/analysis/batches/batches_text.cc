@@ -30,8 +30,8 @@ std::string ParameterText(const BatchParameter& p, std::size_t batch) {
   const BatchDifference& d = p.differences[batch - 1];
   const std::string change =
       (p.IsLog() ? "× " : "") + (p.IsLog() ? RangeText(d.range) : WithUnit(RangeText(d.range), p));
-  return p.name + "  " + RangeText(p.batches.front()) + " → " +
-         WithUnit(RangeText(p.batches[batch]), p) + "; difference " + change +
+  return p.name + (p.is_nuisance ? " (not asked for)" : "") + "  " + RangeText(p.batches.front()) +
+         " → " + WithUnit(RangeText(p.batches[batch]), p) + "; difference " + change +
          ", either way larger than " + ChangeText(p, d.matters) + " with probability " +
          ShortNumber(d.probability, 2);
 }
@@ -78,7 +78,7 @@ std::string BatchesText(const BatchComparison& c) {
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
     text += "  " + c.batches[b] + ": " + c.verdicts[b - 1].text + "\n";
     for (const BatchParameter& p : c.parameters) text += "    " + ParameterText(p, b) + "\n";
-    if (c.parameters.size() > 1) text += "    " + TogetherText(c.together[b - 1]) + "\n";
+    if (NumAsked(c) > 1) text += "    " + TogetherText(c.together[b - 1]) + "\n";
     for (const BatchPictures& p : c.pictures) {
       if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
     }

@@ -92,14 +92,29 @@ BatchDifference DifferenceOf(const Batch& first, const Batch& batch, std::size_t
           .is_found = range.low > 0 || range.high < 0};
 }
 
-// A batch's draws on the scales of the first batch's parameters.
+bool IsNuisance(const Batch& batch, std::size_t parameter) {
+  const optimizer::ParameterSpace& space = batch.view.space;
+  return space.parameters[static_cast<std::size_t>(space.Free()[parameter])].is_nuisance;
+}
+
+// Those that are asked for.
+std::vector<std::size_t> AskedOf(const Batch& batch) {
+  std::vector<std::size_t> asked;
+  for (std::size_t p = 0; p < batch.view.record.parameters.size(); ++p) {
+    if (!IsNuisance(batch, p)) asked.push_back(p);
+  }
+  return asked;
+}
+
+// A batch's draws of what is asked for, on the scales of the first batch's parameters.
 Eigen::MatrixXd ScaledDraws(const Batch& batch, const Batch& first) {
   const auto& parameters = first.view.record.parameters;
+  const std::vector<std::size_t> asked = AskedOf(first);
   Eigen::MatrixXd scaled(static_cast<Eigen::Index>(batch.draws.size()),
-                         static_cast<Eigen::Index>(parameters.size()));
+                         static_cast<Eigen::Index>(asked.size()));
   for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
     for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
-      const auto p = static_cast<std::size_t>(k);
+      const std::size_t p = asked[static_cast<std::size_t>(k)];
       scaled(i, k) = Scaled(parameters[p], batch.draws[static_cast<std::size_t>(i)][p]);
     }
   }
@@ -229,7 +244,10 @@ std::vector<BatchParameter> ParametersOf(const std::vector<Batch>& batches,
   std::vector<BatchParameter> parameters;
   for (std::size_t p = 0; p < counts.size(); ++p) {
     const journal::ParameterRecord& record = batches.front().view.record.parameters[p];
-    BatchParameter parameter{.name = record.name, .unit = record.unit, .scale = record.scale};
+    BatchParameter parameter{.name = record.name,
+                             .unit = record.unit,
+                             .scale = record.scale,
+                             .is_nuisance = IsNuisance(batches.front(), p)};
     for (std::size_t b = 0; b < batches.size(); ++b) {
       parameter.batches.push_back(RangeOf(Column(batches[b], p)));
       if (b == 0) continue;

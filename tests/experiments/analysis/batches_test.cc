@@ -21,6 +21,7 @@ namespace talus::analysis {
 namespace batches_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 std::vector<imaging::GrayImage> Heaps(double sliding, int count, std::uint64_t seed) {
@@ -162,7 +163,7 @@ class BatchesTest : public campaign::CampaignFixture {
     double sliding = 0;
     std::string fallen;
     std::string more;
-    std::string scale;  // of the sliding friction
+    std::string scale;  // of the sliding friction; "nuisance": it is one
   };
   static void Finish(const fs::path& scratch, const Made& made) {
     const fs::path spec = campaign::WriteFakeSpec(scratch / "in",
@@ -176,7 +177,9 @@ class BatchesTest : public campaign::CampaignFixture {
     replace(R"("experiment": {)",
             R"("experiments": [{"name": "heap", "mass_fallen": {"sd": "1 mg", "value": ")" +
                 made.fallen + R"("}, )");
-    replace(R"("max": 0.8})", R"("max": 0.8, "scale": ")" + made.scale + "\"}");
+    replace(R"("max": 0.8})", made.scale == "nuisance"
+                                  ? R"("max": 0.8, "nuisance": true})"
+                                  : R"("max": 0.8, "scale": ")" + made.scale + "\"}");
     replace(R"("10 mm"}},)", R"("10 mm"}}],)");
     std::ofstream(spec) << text;
     campaign::BeginCampaign(spec, scratch / "run");
@@ -212,6 +215,23 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   const std::string page = BatchesPage(c);
   EXPECT_THAT(page, HasSubstr("differs: sliding_friction by 0."));
   EXPECT_EQ(Count(page, "<svg"), 2);  // a chart a parameter
+}
+
+// Each more that nobody asks for would widen the joint region, and hide what is asked for.
+TEST_F(BatchesTest, ANuisanceIsShownAndDecidesNothing) {
+  const fs::path first = Run("first", 0.4, "23 mg", "", "nuisance");
+  const fs::path shifted = Run("shifted", 0.6, "23 mg", "", "nuisance");
+  const BatchComparison c = CompareBatches({first, shifted}, {});
+  EXPECT_TRUE(c.parameters[0].is_nuisance);
+  EXPECT_TRUE(c.parameters[0].differences[0].is_found);
+  EXPECT_FALSE(c.parameters[1].is_nuisance);
+  EXPECT_EQ(NumAsked(c), 1);
+  // Of one parameter all together is that one.
+  EXPECT_EQ(c.together[0].is_found, c.parameters[1].differences[0].is_found);
+  EXPECT_THAT(c.verdicts[0].text, Not(HasSubstr("sliding_friction")));
+  EXPECT_THAT(BatchesText(c), HasSubstr("sliding_friction (not asked for)  0."));
+  EXPECT_THAT(BatchesText(c), Not(HasSubstr("all parameters together")));
+  EXPECT_THAT(BatchesPage(c), HasSubstr("sliding_friction (not asked for)"));
 }
 
 // On a linear scale a tenth of the range mattered at its low end as at its high one.
