@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/next_text.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/doubts.h"
 #include "experiments/campaign/folder/folder_in_text.h"

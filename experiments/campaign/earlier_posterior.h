@@ -8,6 +8,7 @@
 
 #include "base/json/json_file.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
 
 namespace talus::campaign {
 

@@ -9,6 +9,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/csv.h"
+#include "experiments/journal/journal.h"
 
 namespace talus::analysis {
 namespace {

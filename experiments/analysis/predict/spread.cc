@@ -8,6 +8,7 @@
 #include "base/not_known.h"
 #include "base/sample.h"
 #include "base/student_factor.h"
+#include "optimizer/answer.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::analysis {

@@ -12,6 +12,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/record/stored.h"

@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "experiments/campaign/answer/alarm.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 

@@ -4,6 +4,7 @@
 
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/alarms.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"

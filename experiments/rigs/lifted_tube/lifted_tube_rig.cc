@@ -10,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
 #include "experiments/rigs/phased/landing.h"

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "engine/bodies/wall_motion.h"
+#include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/phased/rest.h"

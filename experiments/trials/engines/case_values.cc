@@ -191,7 +191,8 @@ std::vector<std::string> PlaceholdersOf(const std::string& parameter, const rigs
   }
   if (is_of_bulk && !names.empty()) names.emplace_back("grains");
   if (names.empty()) names.push_back(parameter);
-  std::ranges::stable_partition(names, [&](const auto& name) { return name == parameter; });
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const auto& name) { return name == parameter; });
   return names;
 }
 

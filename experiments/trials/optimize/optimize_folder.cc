@@ -17,6 +17,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
+#include "experiments/trials/optimize/optimize_result_json.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::trials {

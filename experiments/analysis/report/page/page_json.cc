@@ -46,7 +46,7 @@ PageValue FindingJson(const ObjectiveFinding& f) {
                      {"objective", shown(s.objective)}};
   };
   return {{"key", f.info.key},
-          {"metric", ShownName(f.info.metric)},
+          {"metric", rigs::ShownName(f.info.metric)},
           {"title", f.info.title},
           {"value_title", ValueTitle(f.info)},
           {"unit", f.info.unit},
@@ -154,7 +154,7 @@ PageValue MeasureJson(const Evidence& evidence, const MeasuredProfile& measure) 
   PageValue values = PageValue::array();
   for (std::size_t k = 0; k < measure.metrics.size(); ++k) {
     values.push_back(
-        NumberJson(ShownUnitOf(evidence.metrics[k].unit).per_unit * measure.metrics[k]));
+        NumberJson(rigs::ShownUnitOf(evidence.metrics[k].unit).per_unit * measure.metrics[k]));
   }
   return {{"title", measure.title}, {"note", measure.note}, {"values", values}};
 }
