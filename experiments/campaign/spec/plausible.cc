@@ -1,7 +1,5 @@
 #include "experiments/campaign/spec/plausible.h"
 
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -125,35 +123,6 @@ void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
                          " kg/m^3: one of the three has another unit");
 }
 
-void CheckTube(const rigs::Device& device, const Place& place, base::Problems& problems) {
-  RequirePlausible(BenchQuantity::kTubeDiameter, device.tube_inner_diameter,
-                   place("device.tube_inner_diameter"), problems);
-  RequirePlausible(BenchQuantity::kPlateDiameter, device.plate_diameter,
-                   place("device.plate_diameter"), problems);
-  RequirePlausible(BenchQuantity::kLiftVelocity, device.lift_velocity,
-                   place("device.lift_velocity"), problems);
-}
-
-// Speeds and angles of another rig's own.
-struct RigChecker {
-  const Place& place;
-  base::Problems& problems;
-
-  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
-    const std::string path = place("rig." + std::string(key));
-    const std::string number = base::ShortNumber(value);
-    if (info.dimension == base::Dimension::kVelocity) {
-      problems.Require(!(value > rigs::kFastest), path, value,
-                       "in m/s, must be at most 5; write \"" + number + " mm/s\"");
-    } else if (info.dimension == base::Dimension::kAngle) {
-      problems.Require(!(value > 2 * std::numbers::pi), path, value,
-                       "in rad, is more than a turn; write \"" + number + " deg\"");
-    }
-  }
-  template <class Other>
-  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
-};
-
 Surroundings Around(const CampaignSpec& spec, const rigs::Powder& powder, std::string prefix,
                     std::string filled_by) {
   Surroundings around{.prefix = std::move(prefix),
@@ -198,10 +167,11 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     if (powder.mass > 0) CheckMasses(e.numbers, powder.mass, mass, place, problems);
     const bool is_tube = !e.rig || e.rig->kind == rigs::RigKind::kLiftedTube;
     const bool own_device = spec.experiments && (*spec.experiments)[i].device;
-    if (is_tube) CheckTube(*e.device, own_device ? place : Place(""), problems);
-    if (!is_tube) {
-      RigChecker checker{place, problems};
-      rigs::RigOptions::Visit(*e.rig, checker);
+    if (is_tube) {
+      const Place at = own_device ? place : Place("");
+      rigs::RequirePlausibleTube(*e.device, at("device"), problems);
+    } else {
+      rigs::RequirePlausibleRig(*e.rig, place("rig"), problems);
     }
     if (problems.size() > before) continue;  // what is wrong by itself is said of itself
     RequireAgreeing(e, Around(spec, powder, place(""), mass), problems);

@@ -34,6 +34,11 @@ void CaseOutputs::Validate(base::Problems& problems) const {
 void Case::Validate(base::Problems& problems) const {
   ValidatePairs(pairs, problems);
   RequirePlausibleGrains(powder, problems);
+  if (rig.kind == RigKind::kLiftedTube) {
+    RequirePlausibleTube(rig.lifted_tube, "device", problems);
+  } else {
+    RequirePlausibleRig(rig, "rig", problems);
+  }
   RequireNoTube(rig.kind, rig.lifted_tube, "device", problems);
   const bool has_fill = rig.kind == RigKind::kDrum && rig.drum.fill;
   problems.Require(powder.mass != 0 || has_fill, "powder.mass",

@@ -1,13 +1,17 @@
 #include "experiments/rigs/case/plausible_quantity.h"
 
 #include <array>
+#include <numbers>
 
+#include "base/field.h"
 #include "base/text/number_text.h"
 
 namespace talus::rigs {
 namespace {
 
 using base::Dimension;
+
+constexpr double kFastest = 5;  // part of a rig [m/s]
 
 // The value was typed as one unit and read as another: written as `value · factor` of this one.
 struct Slip {
@@ -60,6 +64,25 @@ bool IsWithin(const Plausible& plausible, double value) {
   return value >= plausible.low && value <= plausible.high;
 }
 
+struct RigChecker {
+  const std::string& path;
+  base::Problems& problems;
+
+  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
+    const std::string place = path + "." + std::string(key);
+    const std::string number = base::ShortNumber(value);
+    if (info.dimension == Dimension::kVelocity) {
+      problems.Require(!(value > kFastest), place, value,
+                       "in m/s, must be at most 5; write \"" + number + " mm/s\"");
+    } else if (info.dimension == Dimension::kAngle) {
+      problems.Require(!(value > 2 * std::numbers::pi), place, value,
+                       "in rad, is more than a turn; write \"" + number + " deg\"");
+    }
+  }
+  template <class Other>
+  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
+};
+
 }  // namespace
 
 std::string ImplausibleText(BenchQuantity quantity, double value) {
@@ -82,6 +105,21 @@ void RequirePlausible(BenchQuantity quantity, double value, std::string_view pat
                       base::Problems& problems) {
   const std::string text = ImplausibleText(quantity, value);
   problems.Require(text.empty(), path, value, text);
+}
+
+void RequirePlausibleTube(const LiftedTubeOptions& tube, const std::string& path,
+                          base::Problems& problems) {
+  RequirePlausible(BenchQuantity::kTubeDiameter, tube.tube_inner_diameter,
+                   path + ".tube_inner_diameter", problems);
+  RequirePlausible(BenchQuantity::kPlateDiameter, tube.plate_diameter, path + ".plate_diameter",
+                   problems);
+  RequirePlausible(BenchQuantity::kLiftVelocity, tube.lift_velocity, path + ".lift_velocity",
+                   problems);
+}
+
+void RequirePlausibleRig(const RigOptions& rig, const std::string& path, base::Problems& problems) {
+  RigChecker checker{path, problems};
+  RigOptions::Visit(rig, checker);
 }
 
 std::pair<const char*, double> TypicalDiameter(const engine::SizeDistribution& sizes) {

@@ -8,6 +8,8 @@
 
 #include "base/problems.h"
 #include "experiments/rigs/case/case.h"
+#include "experiments/rigs/options/lifted_tube_options.h"
+#include "experiments/rigs/options/rig_options.h"
 
 namespace talus::rigs {
 
@@ -22,8 +24,6 @@ enum class BenchQuantity {
   kSurfaceEnergy
 };
 
-inline constexpr double kFastest = 5;  // part of a rig [m/s]
-
 // What is wrong with the value [SI], to stand after "is 4.386, ": "in kg/m^3, must be from 25 to
 // 25000; write "4.386 g/cm^3"". Empty where it can be, or is not positive.
 std::string ImplausibleText(BenchQuantity quantity, double value);
@@ -34,6 +34,13 @@ void RequirePlausible(BenchQuantity quantity, double value, std::string_view pat
 
 // The same of what the grains of `powder` are, which stands at that key.
 void RequirePlausibleGrains(const Powder& powder, base::Problems& problems);
+
+// Of a tube and its plate, whose keys stand at `path`.
+void RequirePlausibleTube(const LiftedTubeOptions& tube, const std::string& path,
+                          base::Problems& problems);
+
+// Speeds and angles of another rig, whose keys stand at `path`.
+void RequirePlausibleRig(const RigOptions& rig, const std::string& path, base::Problems& problems);
 
 // A typical diameter of the grains [m] and its key in `sizes`; 0 where a file or a table has it.
 std::pair<const char*, double> TypicalDiameter(const engine::SizeDistribution& sizes);
