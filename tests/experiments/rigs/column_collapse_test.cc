@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "experiments/rigs/phased/surface.h"
 #include "tests/experiments/rigs/rig_case.h"
@@ -16,17 +17,25 @@ Case Collapse(double mass) {
 
 // Two-dimensional columns run out by ΔL/L = 1.2 a up to an aspect ratio a of about 2, and by
 // 1.9 a^(2/3) beyond [lube2005]; by a up to 3 [lajeunesse2005]. A channel five grains wide and
-// grains that resist rolling take part of it away: seen 0.84, 0.92 and 0.90 of Lube's.
+// grains that resist rolling take part of it away: 0.82, 0.90 and 0.91 of Lube's over 36 runs each,
+// which scatter by 0.14, 0.07 and 0.05: the means of 8, 3 and 1 scatter by 0.05.
 TEST(ColumnCollapse, RunoutGrowsWithTheAspectRatioAsPublished) {
   double before = 0;
-  for (const double mass : {0.45e-3, 0.9e-3, 1.8e-3}) {
-    const Case c = Collapse(mass);
-    const auto rig = Ran(c);
-    const double aspect = Value(c, *rig, "aspect_ratio");
-    const double runout = Value(c, *rig, "runout_m") / 0.012;
-    const double published = aspect < 2 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3);
-    EXPECT_GT(runout, 0.7 * published);
-    EXPECT_LT(runout, 1.2 * published);
+  for (const auto& [mass, num_runs] : {std::pair{0.45e-3, 8u}, {0.9e-3, 3u}, {1.8e-3, 1u}}) {
+    double runout = 0;
+    double share = 0;
+    for (unsigned seed = 1; seed <= num_runs; ++seed) {
+      Case c = Collapse(mass);
+      c.seed = seed;
+      const auto rig = Ran(c);
+      const double aspect = Value(c, *rig, "aspect_ratio");
+      const double one = Value(c, *rig, "runout_m") / 0.012;
+      const double published = aspect < 2 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3);
+      runout += one / num_runs;
+      share += one / published / num_runs;
+    }
+    EXPECT_GT(share, 0.65);
+    EXPECT_LT(share, 1.1);
     EXPECT_GT(runout, before);
     before = runout;
   }
