@@ -11,10 +11,10 @@ namespace talus::optimizer {
 
 // The branches of equally likely draws, in the parameters asked for: those inside the region are
 // joined where the region does not break between them. The likeliest branch first; parts of less
-// than 2 % of the draws are left out. PosteriorBranch::point is the draw of the branch's denser
-// half that is nearest to all its others: a small expected distance from the truth, and near the
-// ridge, however bent that is. The nearest of all draws lies off it, on the inner side of the bend.
-// Its nuisances are what is typical there.
+// than 2 % of the draws are left out. PosteriorBranch::point is the draw of the branch's densest
+// quarter that is nearest to all its others, and of the draws right beside that the densest: a
+// small expected distance from the truth, and on the ridge, however bent that is. The nearest of
+// all draws lies off it, on the inner side of the bend. Its nuisances are what is typical there.
 std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
                                           const PosteriorSample& sample, std::uint64_t seed);
 

@@ -168,6 +168,27 @@ TEST(AskedDensity, BranchesAreOfWhatIsAskedFor) {
             0.08);
 }
 
+// A valley bent round a corner of the cube, as that of two frictions with one measured angle. The
+// middle of its draws lies beside the ridge, on the inner side: of those of the denser half by 0.5
+// standard deviations in the mean of these seeds. One seed scatters by 0.3.
+TEST(AskedDensity, ABentValleyIsAnsweredOnItsRidge) {
+  constexpr double kRadius = 0.7;
+  constexpr double kSd = 0.05;
+  constexpr int kSeeds = 12;
+  const auto valley = [&](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
+    return -0.5 * ((x.rowwise().norm().array() - kRadius) / kSd).square();
+  };
+  const PosteriorSample joint = SampleOf(valley, 2);
+  const AskedDensity asked(valley, {.num_parameters = 2}, joint, 1);
+  double beside = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const auto branches = FindBranches(asked, asked.Sample(joint), seed);
+    ASSERT_EQ(branches.size(), 1u);
+    beside += (branches[0].point.norm() - kRadius) / kSd / kSeeds;
+  }
+  EXPECT_NEAR(beside, 0, 0.25);
+}
+
 // With six parameters no draw of 300 has a neighbour within a third of the ranges.
 TEST(AskedDensity, ABroadRegionOfManyParametersIsOneBranch) {
   const auto flat = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
