@@ -171,7 +171,7 @@ class ReportOfKnownData(ReportPage):
 
     def test_running_campaign_says_how_far_it_is(self):
         self.open_report("two", 40, 2, "running")
-        self.assertIn("of 0.309 mm² ± 0.051 there.", self.driver.find_element(By.ID, "answer").text)
+        self.assertIn("of 0.226 mm² ± 0.0092 there.", self.driver.find_element(By.ID, "answer").text)
         trials = ("trials: {id: [1, 2, 3, 4, 5], state: ['ok', 'ok', 'ok', 'failed', 'ok'], purpose: ['design', 'search', 'search', 'search', 'confirm'],"
                   " scale: [2, 1, 1, 1, 1], values: [[.1, .2, .3, .4, .5], [.6, .7, .8, .9, 1]], metrics: [[28, 35, 33, 30, 30]]}, "
                   "metrics: [{name: 'a', title: 'A', unit: '°'}]")
