@@ -94,10 +94,12 @@ void CheckDeckTellsApart(const CampaignSpec& spec, base::Problems& problems) {
       const std::vector<std::string> untold =
           Untold(templates, spec.engine.command, cases[made], cases[e]);
       if (untold.empty()) continue;
-      problems.Add("experiments[" + std::to_string(e) + "].rig",
-                   "the engine's templates have no " + base::Listed(untold) + ", in which \"" +
-                       experiments[e].name + "\" differs from \"" + experiments[made].name +
-                       "\": they would simulate that again; let a template take it");
+      problems.Add(
+          "experiments[" + std::to_string(e) + "].rig",
+          "the engine's templates have no " + base::Listed(untold) + ", in which \"" +
+              experiments[e].name + "\" differs from \"" + experiments[made].name +
+              "\": they would simulate both alike in that; let a template take it, be it in a "
+              "comment");
       break;
     }
   }

@@ -166,6 +166,7 @@ TEST_F(NextCandidates, ADeckSimulatesOnlyTheTestsThatItTakes) {
   drum.rig.emplace().kind = rigs::RigKind::kDrum;
   EXPECT_EQ(WhyNot(view, TestCandidate{.name = "the same"}), "");
   EXPECT_THAT(WhyNot(view, wide), HasSubstr("templates have no {{ plate_diameter }}"));
+  EXPECT_THAT(WhyNot(view, wide), HasSubstr("they would simulate both alike in that"));
   EXPECT_THAT(WhyNot(view, drum), HasSubstr("{{ rig_kind }}"));
   EXPECT_THAT(Find(Rank(view, {wide}, true), "wide").what, HasSubstr("cannot be simulated: "));
   std::ofstream(deck / "in.heap", std::ios::app) << "{{ plate_radius }}";
