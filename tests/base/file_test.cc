@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <vector>
+
 #include "base/error.h"
 #include "base/files/output_folder.h"
 #include "tests/peak_memory.h"

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "imaging/formats/images/image_file.h"
 #include "imaging/photos/experiment.h"
@@ -280,8 +281,8 @@ TEST(NoAngle, ABluntHeapHasOne) {
   }
   // Low ones with straight slopes: all of their widths are much the same.
   for (const auto& [height, degrees] : {std::pair{20.0, 60.0}, {28.0, 70.0}}) {
-    const GrayImage low = Silhouette([&](double x) {
-      return std::clamp((125 - std::abs(x)) * std::tan(degrees * kDegree), 0.0, height);
+    const GrayImage low = Silhouette([top = height, slope = std::tan(degrees * kDegree)](double x) {
+      return std::clamp((125 - std::abs(x)) * slope, 0.0, top);
     });
     EXPECT_NEAR(MeasureRepose(low, SmallFrame())[1].mean.value / kDegree, degrees, 3) << degrees;
   }

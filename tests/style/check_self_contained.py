@@ -7,12 +7,13 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("base", "engine", "imaging", "surrogate", "optimizer", "experiments", "python")
+LIBRARIES = ("base", "engine", "imaging", "surrogate", "optimizer")
+FOLDERS = (*LIBRARIES, "experiments", "python", "tests", "bench")
 HEADERS = {"function": "functional", "pair": "utility", "shared_ptr": "memory", "unique_ptr": "memory"}
 HEADERS |= {name: name for name in (
     "array", "atomic", "chrono", "filesystem", "map", "mutex", "optional", "set", "span", "string", "string_view",
     "tuple", "unordered_map", "unordered_set", "variant", "vector")}
-NAMESPACES = {name: f"{name}/" for name in FOLDERS if name not in ("experiments", "python")}
+NAMESPACES = {name: f"{name}/" for name in LIBRARIES}
 NAMESPACES |= {floor: f"experiments/{floor}/"
                for floor in ("rigs", "runners", "journal", "trials", "campaign", "analysis")}
 # Their headers are parts of one another, made for a width of vectors that the including file sets.
@@ -20,7 +21,7 @@ IN_PARTS = ("engine/kernel/", "engine/laws/")
 # A constant, a class or a function that a header declares outside of any class.
 DECLARED = re.compile(
     r"^(?:inline constexpr [\w:<>, ]+? (k[A-Z]\w+)\b|(?:struct|class|enum class) ([A-Z]\w+)\b(?!;)"
-    r"|(?!using|return|namespace|template|static|typedef|#)[\w:<>,&*\[\] ]+?[ &*]([A-Z]\w+)\()", re.M)
+    r"|(?!using|return|namespace|template|static|typedef|#)[\w:<>,&*\[\] ]+?[ &*]([A-Z]\w*[a-z]\w*)\()", re.M)
 
 
 def namespace_of(name: str) -> str:
@@ -29,7 +30,9 @@ def namespace_of(name: str) -> str:
 
 
 def without_texts(source: str) -> str:
-    return re.sub(r'"(\\.|[^"\\\n])*"', '""', re.sub(r'//.*|R"\((.|\n)*?\)"', "", source))
+    """Nor with the names of tests, which are no others'."""
+    source = re.sub(r'//.*|R"\((.|\n)*?\)"', "", source)
+    return re.sub(r'"(\\.|[^"\\\n])*"', '""', re.sub(r"\bTEST(_[FP])?\(\w+, \w+\)", "", source))
 
 
 def declares(text: str, name: str) -> bool:

@@ -1,6 +1,8 @@
 // Impacts with known answers.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {

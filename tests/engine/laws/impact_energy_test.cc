@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <tuple>
 
 #include "engine/laws/law_list.h"
 #include "tests/engine/scenes.h"

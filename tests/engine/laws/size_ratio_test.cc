@@ -3,6 +3,8 @@
 // 109524).
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/error.h"
 #include "engine/kernel/dispatch.h"
 #include "engine/neighbor/contact_list.h"
 #include "engine/neighbor/grid.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 
 #include "base/error.h"
 #include "tests/engine/cloud.h"
@@ -190,9 +191,8 @@ TEST(BadAdd, SeesASmallSphereInALargeOneAndTheOtherWayRound) {
     scene.particles.resize(8);
     scene.particles.push_back(first);
     Simulation simulation(scene);
-    EXPECT_THAT(ErrorOf([&] {
-                  simulation.Add({&second, 1});
-                }),
+    const std::span<const Particle> added(&second, 1);
+    EXPECT_THAT(ErrorOf([&] { simulation.Add(added); }),
                 HasSubstr("overlaps the sphere with id " + std::to_string(first.id)));
   }
 }
