@@ -9,7 +9,7 @@
 namespace talus::imaging {
 namespace render_test {
 
-const Color kWhite{255, 255, 255};
+constexpr Color kWhite{255, 255, 255};
 
 Camera SideView() {
   return {.width = 100,

@@ -21,11 +21,15 @@ IN_PARTS = ("engine/kernel/", "engine/laws/")
 # A constant, a class or a function that a header declares outside of any class.
 DECLARED = re.compile(
     r"^(?:inline constexpr [\w:<>, ]+? (k[A-Z]\w+)\b|(?:struct|class|enum class) ([A-Z]\w+)\b(?!;)"
-    r"|(?!using|return|namespace|template|static|typedef|#)[\w:<>,&*\[\] ]+?[ &*]([A-Z]\w*[a-z]\w*)\()", re.M)
+    r"|(?! |using|return|namespace|template|static|typedef|#)[\w:<>,&*\[\] ]+?[ &*]([A-Z]\w*[a-z]\w*)\()", re.M)
 
 
-def namespace_of(name: str) -> str:
+def namespace_of(name: str, text: str) -> str:
+    """A test is in the namespace of what it tests."""
     parts = name.split("/")
+    own = re.search(r"^namespace talus::(\w+)", text, re.M)
+    if own and parts[0] in ("tests", "bench"):
+        return own[1]
     return parts[1] if parts[0] == "experiments" else parts[0]
 
 
@@ -54,6 +58,7 @@ class Tree:
             if name.endswith(".h"):
                 for found in DECLARED.finditer(text):
                     declared[next(filter(None, found.groups()))].add(name)
+        self.namespace = {name: namespace_of(name, text) for name, text in self.texts.items()}
         self.home = {word: next(iter(names)) for word, names in declared.items() if len(names) == 1}
 
     def reached(self, name: str) -> set:
@@ -81,7 +86,7 @@ class Tree:
             home = self.home.get(used)
             if home is None or home in known or home == name or used in said:
                 continue
-            if (space or namespace_of(name)) == namespace_of(home) and (space or not declares(text, used)):
+            if (space or self.namespace[name]) == self.namespace[home] and (space or not declares(text, used)):
                 yield f"{name}: {used} without {home}"
 
 

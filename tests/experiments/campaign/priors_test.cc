@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/spec/parameter_prior.h"
