@@ -55,7 +55,7 @@ class NoisyBowl : public ::testing::Test {
   const TransformedModel model_{surrogate::GaussianProcess::Fit(
       {points_, Values(points_)}, {.trend = surrogate::Trend::kQuadratic})};
   const Domain domain_{.num_parameters = 2};
-  const Feasibility feasibility_;
+  const Feasibility feasibility_{};
   const ModelView view_{.model = model_,
                         .feasibility = feasibility_,
                         .domain = domain_,

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <ranges>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -223,8 +222,11 @@ TEST_F(AddExperimentTest, WhatIsTakenOverGetsNoReplicates) {
   for (const journal::TrialRecord& trial : Trials(folder)) {
     if (trial.experiment == 1 && trial.IsOfSearch()) ++members[trial.set];
   }
-  EXPECT_EQ(std::ranges::count(std::views::values(members), 1), 16);
-  EXPECT_EQ(std::ranges::count_if(std::views::values(members), [](int num) { return num > 2; }), 0);
+  const auto size = [](const auto& group) { return group.second; };
+  EXPECT_EQ(std::ranges::count(members, 1, size), 16);
+  EXPECT_EQ(std::ranges::count_if(
+                members, [](int num) { return num > 2; }, size),
+            0);
 }
 
 TEST_F(AddExperimentTest, ItIsStillThereInAJournalThatIsMadeAnew) {
