@@ -30,12 +30,24 @@ double Radius(const DrumCircle& circle, int x, int y) {
   return std::hypot(x + 0.5 - circle.center_x, y + 0.5 - circle.center_y);
 }
 
-// Levels of powder and light within the drum; the ring is too thin to count.
-TwoClasses Levels(const GrayImage& photo, const DrumCircle& circle, const std::string& name) {
+// The outermost circle of a photograph and the drum's inner radius within it.
+struct DrumPlace {
+  DrumCircle circle;
+  double drum_radius = 0;  // [px]
+};
+
+DrumPlace PlaceOf(const DrumCircle& circle, const DrumPhotos& options) {
+  const double share = options.diameter / options.circle_diameter.value_or(options.diameter);
+  return {.circle = circle, .drum_radius = share * circle.radius};
+}
+
+// Levels of powder and light within the drum. What is left of a ring that no diameter tells is too
+// thin to count.
+TwoClasses Levels(const GrayImage& photo, const DrumPlace& place, const std::string& name) {
   std::vector<float> levels;
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {
-      if (Radius(circle, x, y) < 0.95 * circle.radius) levels.push_back(photo.at(x, y));
+      if (Radius(place.circle, x, y) < 0.95 * place.drum_radius) levels.push_back(photo.at(x, y));
     }
   }
   const TwoClasses classes = SplitByOtsu(levels);
@@ -74,21 +86,10 @@ double InnerRadius(const GrayImage& photo, const DrumCircle& circle, const TwoCl
   return r - kBeyondRing * circle.radius;
 }
 
-// The outermost circle of a photograph and the drum's inner radius within it.
-struct DrumPlace {
-  DrumCircle circle;
-  double drum_radius = 0;  // [px]
-};
-
-DrumPlace PlaceOf(const DrumCircle& circle, const DrumPhotos& options) {
-  const double share = options.diameter / options.circle_diameter.value_or(options.diameter);
-  return {.circle = circle, .drum_radius = share * circle.radius};
-}
-
 // Powder and light become 0 and 255; what the ring hides is white.
 DrumMap MapOf(const GrayImage& photo, const DrumPlace& place, const std::string& name) {
   const DrumCircle& circle = place.circle;
-  const TwoClasses levels = Levels(photo, circle, name);
+  const TwoClasses levels = Levels(photo, place, name);
   DrumMap map{.image = photo,
               .circle = circle,
               .drum_radius = place.drum_radius,
@@ -126,12 +127,13 @@ struct Photographs {
 };
 
 // The average of a series would be of neither kind of light.
-void RequireSameLight(const Photographs& photos, const std::string& name) {
+void RequireSameLight(const Photographs& photos, const DrumPhotos& options,
+                      const std::string& name) {
   constexpr double kMuch = 1.4;  // times as dark or as bright as the first [-]
   const GrayImage& first = photos.images.front();
   const GrayImage& last = photos.images.back();
-  const double light = Levels(last, photos.circles.back(), name).light;
-  const double usual = Levels(first, photos.circles.front(), name).light;
+  const double light = Levels(last, PlaceOf(photos.circles.back(), options), name).light;
+  const double usual = Levels(first, PlaceOf(photos.circles.front(), options), name).light;
   std::string how;
   if (AreInverse(first, last)) {
     how = "light where the first photograph is dark";
@@ -143,9 +145,9 @@ void RequireSameLight(const Photographs& photos, const std::string& name) {
                           "; take it again, or leave it out");
 }
 
-Photographs Read(const std::vector<std::filesystem::path>& files) {
+Photographs Read(const DrumPhotos& options) {
   Photographs photos;
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& file : options.photos) {
     photos.images.push_back(ReadPhotograph(file).image);
     const GrayImage& image = photos.images.back();
     photos.circles.push_back(FindDrumCircle(image, file.string()));
@@ -162,7 +164,7 @@ Photographs Read(const std::vector<std::filesystem::path>& files) {
           ": its drum is not where that of the first photograph is; a series is "
           "taken by one camera that stands still");
     }
-    RequireSameLight(photos, file.string());
+    RequireSameLight(photos, options, file.string());
   }
   return photos;
 }
@@ -265,7 +267,8 @@ double DarkBelow(const GrayImage& photo, const DrumMap& map, double middle) {
 void RequirePowderBelow(const GrayImage& photo, const DrumMap& map, const std::string& name) {
   constexpr double kMostAbove = 0.03;  // one full to 5 % and upside down has 0.036 at 35 degrees
   if (!(MomentAboveAxis(map) > kMostAbove)) return;
-  if (DarkBelow(photo, map, Levels(photo, map.circle, name).middle()) > 0.9) return;
+  if (DarkBelow(photo, map, Levels(photo, {map.circle, map.drum_radius}, name).middle()) > 0.9)
+    return;
   throw base::ConfigError(name +
                           ": the powder lies at the top of the drum: the picture is upside down, "
                           "or lit from the front, so that powder is bright; turn it, or take it "
@@ -321,7 +324,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   base::Problems problems;
   options.Validate(problems);
   problems.ThrowIfAny();
-  const Photographs photos = Read(options.photos);
+  const Photographs photos = Read(options);
   MeasuredDrum drum;
   const std::string name = options.photos.front().string();
   const GrayImage mean = MeanImage(photos.images);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/line_fit.h"
+#include "imaging/drums/drum_bed.h"
 
 namespace talus::imaging {
 namespace {
@@ -85,13 +86,15 @@ double WholeFill(double fill_seen, double seen) {
 
 DrumSurface MeasureSurface(const DrumMap& map) {
   DrumSurface surface;
+  DrumMap bed = map;
+  bed.image = BedAlone(map.image);
   for (int x = 0; x < map.image.width; ++x) {
-    const std::optional<double> row = SurfaceRow(map, x);
+    const std::optional<double> row = SurfaceRow(bed, x);
     if (!row) continue;
     surface.points.push_back(
         {.x = x + 0.5 - map.circle.center_x, .height = map.circle.center_y - *row});
   }
-  const std::vector<double> powder = ColumnPowder(map.image);
+  const std::vector<double> powder = ColumnPowder(bed.image);
   const double low = Quantile(powder, kFringe) - map.circle.center_x;
   const double high = Quantile(powder, 1 - kFringe) - map.circle.center_x;
   surface.slope_angle = LineAngle(surface.points, low + (high - low) / 4, high - (high - low) / 4);

@@ -2,8 +2,9 @@
 //
 // The angle is that of the least-squares line through the surface in the middle half of the bed,
 // between the quarters of what lies from 2 to 98 % of the powder: as the rig `drum` measures
-// spheres. The fill is that of the whole disc: a flat surface bounds the same segment of it as of
-// what is seen within the ring. Powder that turns with the drum has neither.
+// spheres. A speck above the bed is no surface of it. The fill is that of the whole disc: a flat
+// surface bounds the same segment of it as of what is seen within the ring. Powder that turns with
+// the drum has neither.
 #pragma once
 
 #include <vector>

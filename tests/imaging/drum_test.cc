@@ -120,6 +120,37 @@ TEST(Drum, TheCamerasNoiseIsNoPowder) {
   EXPECT_NEAR(drum.surface.fill.value, Segment(0.2), 0.004);
 }
 
+// Dust on the glass or a grain in flight was the surface of its columns: 20 degrees for 30.
+TEST(Drum, ASpeckAboveTheBedIsNoSurface) {
+  GrayImage photo = Draw({.angle = 30 * kDegree});
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      if (std::hypot(x + 0.5 - (kCenterX + 25), y + 0.5 - (kCenterY - 45)) < 3) photo.at(x, y) = 25;
+    }
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = {Write("speck", photo)}, .diameter = 0.084});
+  EXPECT_NEAR(drum.angle.value / kDegree, 30, 0.2);
+  EXPECT_EQ(drum.turning, Turning::kClockwise);
+}
+
+// The ring's level was mixed into the powder's: powder that is there in every picture stood at 57
+// of 255.
+TEST(Drum, AThickDarkRingIsNoPowder) {
+  GrayImage photo = Draw({.depth = 0.5});
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double r = std::hypot(x + 0.5 - kCenterX, y + 0.5 - kCenterY);
+      if (r < kRadius && r > 0.8 * kRadius) photo.at(x, y) = 5;
+      if (r <= 0.8 * kRadius && photo.at(x, y) < 128) photo.at(x, y) = 70;
+    }
+  }
+  const MeasuredDrum drum = MeasureDrum(
+      {.photos = {Write("thick", photo)}, .diameter = 0.084, .circle_diameter = 0.084 / 0.8});
+  const auto column = static_cast<int>(kCenterX);
+  EXPECT_LE(drum.map.image.at(column, static_cast<int>(kCenterY + 0.7 * kRadius)), 5);
+  EXPECT_GE(drum.map.image.at(column, static_cast<int>(kCenterY)), 250);
+}
+
 TEST(Drum, ADimPhotographIsRead) {
   GrayImage photo = Draw({.angle = 33 * kDegree});
   for (std::uint8_t& level : photo.pixels) {

@@ -94,7 +94,7 @@ class DrumRig : public RememberingRig<DrumMemory> {
     if (c.rig.camera) {
       const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
       problems.Require(
-          c.rig.camera->LastTime() <= measured, "rig.camera",
+          c.rig.camera->LastTime() <= (1 + 1e-9) * measured, "rig.camera",
           "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
               " s after start_turns, when the drum has ended: its turns take " +
               base::ShortNumber(measured) + " s; raise rig.turns to " +
