@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/error.h"
@@ -99,6 +101,18 @@ void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std
   }
 }
 
+// A photograph that counts twice would narrow the angle's error.
+void AddPhoto(const fs::path& image, std::vector<fs::path>& photos) {
+  const auto is_this = [&](const fs::path& photo) {
+    std::error_code there_is_none;
+    return fs::equivalent(photo, image, there_is_none);
+  };
+  if (std::ranges::any_of(photos, is_this)) {
+    throw base::ConfigError(image.string() + ": is named twice; name each photograph once");
+  }
+  photos.push_back(image);
+}
+
 }  // namespace
 
 void MeasureDrums(const MeasureRequest& request, std::ostream& print) {
@@ -107,7 +121,7 @@ void MeasureDrums(const MeasureRequest& request, std::ostream& print) {
   for (const fs::path& input : request.inputs) {
     const std::vector<fs::path> images =
         fs::is_directory(input) ? imaging::ImagesIn(input) : std::vector<fs::path>{input};
-    complete.drum->photos.insert(complete.drum->photos.end(), images.begin(), images.end());
+    for (const fs::path& image : images) AddPhoto(image, complete.drum->photos);
   }
   if (complete.drum->photos.empty()) {
     throw base::ConfigError(request.inputs.front().string() + ": holds no photographs");

@@ -220,6 +220,19 @@ TEST(MeasuredDrums, AreSaidToBeHigherWhereTheyAre) {
   }
 }
 
+// It counted twice, and narrowed the angle's standard error.
+TEST(MeasuredDrums, APhotographIsNamedOnce) {
+  const ScratchFolder scratch;
+  imaging::WritePng(scratch.path() / "first.png", DrawDrum(false, 0, 20));
+  trials::MeasureRequest request;
+  request.inputs = {scratch.path(), scratch.path() / "." / "first.png"};
+  request.drum.emplace();
+  request.drum->diameter = 0.084;
+  std::ostringstream print;
+  EXPECT_THAT(ErrorIn([&] { trials::MeasureDrums(request, print); }),
+              HasSubstr("first.png: is named twice; name each photograph once"));
+}
+
 // A measured series that is not part of the project: TALUS_REAL_DATA names its folder. Its README
 // says how it turns and what it covers: 0.499 and 0.503 of the disc within 41.4 mm.
 TEST(RealDrum, MicrocrystallineCellulose) {
